@@ -91,12 +91,13 @@ public:
         return INTERP_ERROR;
       }
       phase_ = Phase::Running;
-      // After an emergency stop LinuxCNC's status may not know the zero offset that its moves are made with: this sets
-      // it anew, as it is.
-      // Its file of parameters, where the other offsets are read, LinuxCNC writes when it is told a mode: a program
-      // that is started once more is told none.
+      // LinuxCNC's file of parameters, where offsets are read, it writes when it is told a mode: a program that is
+      // started once more is told none.
       if (Mill::moves()) {
-        gcode_->execute("G10 L2 P0");
+        if (const int result = restateOffset(); result > INTERP_MIN_ERROR) {
+          message_ = errorText(result);
+          return INTERP_ERROR;
+        }
         gcode_->synch();
       }
       if (!player_.start(configuration(), file_, start_)) {
@@ -142,6 +143,7 @@ public:
   int on_abort(int reason, const char* message) override {
     closed_ = closed_ || player_.playing();
     settle(whyOf(reason));
+    restatements_ = 0;
     return gcode_->on_abort(reason, message);
   }
   int synch() override {
@@ -187,6 +189,7 @@ public:
     // milltask asks for it in each of its cycles.
     if (Mill::moves()) {
       if (const auto alarm = player_.attend()) Mill::tellError(*alarm);
+      if (!player_.playing() && Mill::rests()) mendStatus();
     }
     return ours(text, size, file_) ? text : gcode_->file(text, size);
   }
@@ -251,6 +254,28 @@ private:
     }
   }
 
+  /// Sets the zero offset in effect anew, as it is, so that LinuxCNC's status tells it. After an emergency stop or an
+  /// abort it may still tell the one of before: what was queued to be told to it is thrown away.
+  int restateOffset() { return gcode_->execute("G10 L2 P0"); }
+
+  /// After a stop, and once the results of a stopped program have been set as offsets.
+  void mendStatus() {
+    constexpr int attempts = 5;
+    if (restatements_ >= attempts) return;
+    if (Mill::statusIsTrue()) {
+      restatements_ = attempts;
+      return;
+    }
+    ++restatements_;
+    restateOffset();
+    Mill::flush();
+  }
+
+  std::string errorText(int result) {
+    std::array<char, 256> text{};
+    return gcode_->error_text(result, text.data(), text.size());
+  }
+
   std::string configuration() const {
     const char* named = std::getenv("INI_FILE_NAME");
     return ini_.empty() && named != nullptr ? named : ini_;
@@ -276,12 +301,12 @@ private:
     for (const std::string& block : mill.tableBlocks(tables)) {
       const int result = gcode_->execute(block.c_str());
       if (result <= INTERP_MIN_ERROR) continue;
-      std::array<char, 256> text{};
-      why = gcode_->error_text(result, text.data(), text.size());
+      why = errorText(result);
       break;
     }
     if (inches) gcode_->execute("G20");
     USE_LENGTH_UNITS(before);
+    restatements_ = 0;
     return why;
   }
 
@@ -313,6 +338,7 @@ private:
   bool given_ = false;                    ///< the block to execute was given as a line
   bool closed_ = false;                   ///< LinuxCNC has closed the program while it ran
   int read_ = INTERP_OK;                  ///< what the last read() wants execute() to say
+  int restatements_ = 0;                  ///< how often the offset was set anew since the last stop
   Player player_{[this](const Mill& mill, const EngineProcess::Json& tables) { return setTables(mill, tables); }};
 };
 

@@ -231,17 +231,59 @@ void Mill::begin() {
   synchronize();
 }
 
+namespace {
+
+/// Turned about Z; degrees.
+std::array<double, 9> turned(std::array<double, 9> place, double degrees) {
+  const double angle = degrees * M_PI / 180, x = place[0], y = place[1];
+  place[0] = x * std::cos(angle) - y * std::sin(angle);
+  place[1] = x * std::sin(angle) + y * std::cos(angle);
+  return place;
+}
+
+/// Where the axes stand as the canonical commands have it, with the offsets that they move by; in their unit.
+std::array<double, 9> programPlace() {
+  return {GET_EXTERNAL_POSITION_X(), GET_EXTERNAL_POSITION_Y(), GET_EXTERNAL_POSITION_Z(),
+          GET_EXTERNAL_POSITION_A(), GET_EXTERNAL_POSITION_B(), GET_EXTERNAL_POSITION_C(),
+          GET_EXTERNAL_POSITION_U(), GET_EXTERNAL_POSITION_V(), GET_EXTERNAL_POSITION_W()};
+}
+
+}  // namespace
+
 void Mill::learnOffsets() {
-  shift_ = g92_ = {};
+  shift_ = {};
   rotation_ = 0;
-  if (const EMC_STAT* now = status()) {
-    const Nine g5x = nine(now->task.g5x_offset), tool = nine(now->task.toolOffset), g92 = nine(now->task.g92_offset);
-    for (std::size_t i = 0; i < shift_.size(); ++i) {
-      shift_[i] = (g5x[i] + tool[i]) * (rotary(i) ? 1 : scale_);
-      g92_[i] = g92[i] * (rotary(i) ? 1 : scale_);
-    }
-    rotation_ = now->task.rotation_xy;
+  const EMC_STAT* now = status();
+  if (now == nullptr) return;
+  // The status may not know what moves are made with: an emergency stop or an abort throws away what is queued to be
+  // told to it. The canonical commands know, and tell it by where they believe the axes to be.
+  rotation_ = now->task.rotation_xy;
+  const Nine axes = nine(now->motion.traj.position), program = turned(programPlace(), rotation_);
+  for (std::size_t i = 0; i < shift_.size(); ++i)
+    shift_[i] = axes[i] * (rotary(i) ? 1 : scale_) - program[i];
+}
+
+bool Mill::rests() {
+  const EMC_STAT* now = status();
+  return now != nullptr && now->status == RCS_DONE && now->motion.traj.inpos && now->motion.traj.queue == 0;
+}
+
+bool Mill::statusIsTrue() {
+  const EMC_STAT* now = status();
+  if (now == nullptr) return true;
+  const Nine g5x = nine(now->task.g5x_offset), tool = nine(now->task.toolOffset), g92 = nine(now->task.g92_offset);
+  Nine place = nine(now->motion.traj.position);
+  for (std::size_t i = 0; i < place.size(); ++i)
+    place[i] -= g5x[i] + tool[i];
+  place = turned(place, -now->task.rotation_xy);
+  const Nine own = programPlace();
+  const CANON_UNITS units = GET_EXTERNAL_LENGTH_UNIT_TYPE();
+  const double unit = units == CANON_UNITS_INCHES ? 25.4 : units == CANON_UNITS_CM ? 10 : 1;
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    const double told = (place[i] - g92[i]) / (rotary(i) ? 1 : now->motion.traj.linearUnits);
+    if (std::abs(told - own[i] * (rotary(i) ? 1 : unit)) > 1e-6) return false;
   }
+  return true;
 }
 
 void Mill::end() const {
@@ -370,12 +412,7 @@ Mill::Nine Mill::programmed(const Position& target) const {
     all[axes_[i].number] = target[i];
   for (std::size_t i = 0; i < all.size(); ++i)
     all[i] -= shift_[i];
-  const double angle = -rotation_ * M_PI / 180, x = all[0], y = all[1];
-  all[0] = x * std::cos(angle) - y * std::sin(angle);
-  all[1] = x * std::sin(angle) + y * std::cos(angle);
-  for (std::size_t i = 0; i < all.size(); ++i)
-    all[i] -= g92_[i];
-  return all;
+  return turned(all, -rotation_);
 }
 
 void Mill::feed(double perMinute) const { SET_FEED_RATE(perMinute); }
@@ -392,6 +429,9 @@ void Mill::straight(const Position& target) const {
 
 void Mill::probe(const Position& target) const {
   const Nine p = programmed(target);
+  // LinuxCNC keeps the touch before until it is told to forget it.
+  TURN_PROBE_ON();
   // 1: without a signal it is no error (G38.3).
   STRAIGHT_PROBE(line_, p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8], 1);
+  TURN_PROBE_OFF();
 }

@@ -28,8 +28,13 @@ public:
   void begin();
   /// The line of the program that what follows belongs to: LinuxCNC shows it, and steps from one to the next.
   void atLine(int line) { line_ = line; }
-  /// The offsets that LinuxCNC adds to what is programmed; once it has carried out all that came before.
+  /// The offsets that LinuxCNC adds to what is programmed; once it has carried out all that came before, of which a
+  /// zero offset set anew was one.
   void learnOffsets();
+  /// Nothing is under way or queued.
+  static bool rests();
+  /// Whether LinuxCNC's status tells the offsets that its moves are made with. To be asked while it rests.
+  static bool statusIsTrue();
   /// As it was before.
   void end() const;
   /// Queues what the canonical commands keep back to join short lines.
@@ -82,7 +87,7 @@ private:
   std::vector<Axis> axes_;
   double scale_ = 1;  ///< mm for each unit of LinuxCNC
   bool orients_ = false;
-  Nine shift_{}, g92_{};  ///< mm: zero offset and tool offset; G92
+  Nine shift_{};  ///< mm, in machine coordinates: zero offset, tool offset, G92
   double rotation_ = 0;
   int line_ = 0;
   int units_ = 0, mode_ = 0;

@@ -23,6 +23,7 @@ bool Player::start(const std::string& iniFile, const std::string& program, int l
   stopped_.reset();
   ended_.reset();
   signalled_ = told_ = gone_ = false;
+  lingers_.reset();
   messages_.clear();
   way_.clear();
   queuedPieces_ = 0;
@@ -135,6 +136,14 @@ Player::Next Player::read() {
   } else if (stage_ == Stage::Pending) {
     mill_.synchronize();
     if (Mill::moves()) at_ = mill_.position();
+    // For up to a servo cycle after a motion is handed over LinuxCNC's status is that of the motion before, and its
+    // planner takes this one for ended.
+    constexpr double unexpected = 1;
+    if (!arrived(order_) && Mill::notReady().empty()) {
+      if (!lingers_) lingers_ = now();
+      if (now() - *lingers_ < unexpected) return Next::Wait;
+    }
+    lingers_.reset();
     answer(outcome(order_));
   } else if (stage_ == Stage::Drain) {
     mill_.synchronize();

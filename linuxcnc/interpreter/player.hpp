@@ -58,6 +58,8 @@ private:
   /// Once the axes stand: the answer if the order cannot begin.
   std::optional<Json> refusal(const Json& order);
   void perform(const Json& order);
+  /// Whether what perform() has begun has come about; false too of an order that has been stopped.
+  bool arrived(const Json& order) const;
   /// Once what perform() has begun has ended.
   Json outcome(const Json& order);
   struct Piece {
@@ -111,7 +113,8 @@ private:
   Mill::Position at_;                     ///< where the axes stand, or are going to
   Json spindle_ = {{"rotation", "none"}, {"speed", 0}, {"angle", 0}};
   double begun_ = 0, alive_ = 0;
-  std::optional<double> ended_;  ///< when the engine closed its socket
+  std::optional<double> ended_;    ///< when the engine closed its socket
+  std::optional<double> lingers_;  ///< since when `order_` seems to have ended without having come about
   int line_ = 0;
   std::string message_;
 };

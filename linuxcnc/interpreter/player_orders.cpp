@@ -140,6 +140,12 @@ std::optional<Player::Json> Player::replied() {
   return reply;
 }
 
+bool Player::arrived(const Json& order) const {
+  const std::string what = order.at("do").get<std::string>();
+  if (!Mill::moves() || (what != "retract" && what != "measure")) return true;
+  return near(at_, order.at("target").get<Mill::Position>()) || (what == "measure" && Mill::tripped());
+}
+
 Player::Json Player::outcome(const Json& order) {
   const std::string what = order.at("do").get<std::string>();
   if (what == "retract") {

@@ -9,6 +9,8 @@
 #include <iterator>
 #include <utility>
 
+#include "adapter/latched.hpp"
+
 namespace probewright::adapter {
 
 using machine::AxisPositions;
@@ -151,6 +153,8 @@ RemoteMachine::Answer RemoteMachine::exchange(Json order) const {
       if (answer.contains("position") && !description_.axes.empty()) {
         at_ = positions(answer.at("position"), description_.axes.size());
         toldAt_ = heard;
+      } else if (order.contains("target") || order.contains("pieces") || order.contains("lines")) {
+        toldAt_ = {};
       }
       return {std::move(answer), {}};
     } catch (const Breach& breach) {
@@ -364,6 +368,7 @@ machine::MeasureResult RemoteMachine::measure(const machine::MeasureOrder& order
   if (auto refused = refusal(order.target, order.feed))
     return {refused->end == MoveEnd::Cancelled ? MeasureEnd::Cancelled : MeasureEnd::Refused, at_,
             std::move(refused->detail)};
+  const AxisPositions start = position();
   Json json = {{"do", "measure"},
                {"target", toJson(order.target, description_.axes.size())},
                {"sensor", word(order.sensor)},
@@ -371,8 +376,11 @@ machine::MeasureResult RemoteMachine::measure(const machine::MeasureOrder& order
   addFeed(json, order.feed);
   const std::function<machine::MeasureResult(const Json&)> read = [&](const Json& answer) {
     machine::MeasureResult result{measureEnd(text(answer, "end")), at_, optionalText(answer, "detail")};
-    if (result.end == MeasureEnd::Touched)
+    if (result.end == MeasureEnd::Touched) {
       result.latched = positions(member(answer, "latched"), description_.axes.size());
+      if (auto why = offTheMeasuringMove(description_, start, order.target, result.latched))
+        throw Breach(*std::move(why));
+    }
     if (answer.contains("spindleAngle")) result.spindleAngle = number(answer, "spindleAngle");
     return result;
   };

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "support/linuxcnc_session.hpp"
+#include "linuxcnc_simulator/example_mill.hpp"
 
 /// The examples, and a program that writes a datum table, on LinuxCNC, opened in its screen and from outside, and on
 /// the virtual machine: the same part, the same probe, the same touches. With PROBEWRIGHT_LONG_TESTS each by both ways
@@ -20,11 +20,6 @@ namespace probewright::testing {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string contents(const fs::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 struct Example {
   const char* program;
@@ -38,7 +33,7 @@ protected:
 
   double feed() const { return longRun() ? 300 : 600; }
   /// mm: a servo period at the probing feed.
-  double bound() const { return feed() / 60 * 0.001 + 1e-4; }
+  double bound() const { return within(feed()); }
 
   struct Reading {
     double value = 0;
@@ -73,16 +68,16 @@ protected:
     }
     EXPECT_GE(tables, 2);
   }
-  LinuxCncSession session_{PROBEWRIGHT_SOURCE_DIR, PROBEWRIGHT_BUILD_DIR};
+  ExampleMill mill_;
+  const LinuxCncSession& session_ = mill_.session;
 };
 
 TEST_P(ExamplesAgree, WithTheVirtualMachine) {
-  if (!session_.needModule("linuxcnc/feel/probewright_feel.so"))
-    GTEST_SKIP() << "only root can lend LinuxCNC a module that is not installed";
+  if (!mill_.feels()) GTEST_SKIP() << ExampleMill::unfelt;
   const std::string program = GetParam().program;
-  const fs::path source = PROBEWRIGHT_SOURCE_DIR, example = source / "examples/linuxcnc/mill3";
+  const fs::path source = PROBEWRIGHT_SOURCE_DIR;
   for (const char* file : {"mill3.hal", "mill3.var"})
-    fs::copy(example / file, session_.outside() / file);
+    fs::copy(mill_.example / file, session_.outside() / file);
   const fs::path ours = source / "tests/linuxcnc_simulator/programs";
   fs::copy((fs::exists(ours / program) ? ours : source / "examples/programs") / program, session_.outside() / program);
   fs::copy(ours / "ZERO.D", session_.outside() / "ZERO.D");
@@ -96,30 +91,14 @@ TEST_P(ExamplesAgree, WithTheVirtualMachine) {
   // Nobody has set lengths and zero offsets at LinuxCNC: they are the setup's.
   session_.write("tool.tbl", "T1 P1 D0 Z0\nT2 P2 D0 Z0\n");
   // The machine of the setup.
-  std::string ini = contents(example / "mill3.ini");
-  const auto replace = [&](const std::string& what, const std::string& by) {
-    ASSERT_NE(ini.find(what), std::string::npos) << what;
-    for (std::size_t at = 0; (at = ini.find(what, at)) != std::string::npos; at += by.size())
-      ini.replace(at, what.size(), by);
-  };
-  const std::string binary = (session_.build() / "apps/probewright/probewright").string();
-  replace("MIN_LIMIT = -300\nMAX_LIMIT = 300", "MIN_LIMIT = -500\nMAX_LIMIT = 500");
-  replace("MIN_LIMIT = -200\nMAX_LIMIT = 200", "MIN_LIMIT = -300\nMAX_LIMIT = 300");
-  replace("MIN_LIMIT = -300\nMAX_LIMIT = 1\n", "MIN_LIMIT = -600\nMAX_LIMIT = 10\n");
-  if (!longRun()) {
-    for (const char* speed : {"MAX_VELOCITY = 100", "MAX_VELOCITY = 80", "MAX_LINEAR_VELOCITY = 150"})
-      replace(speed, std::string(speed, std::string(speed).find(' ')) + " = 500");
-    replace("MAX_ACCELERATION = 1000", "MAX_ACCELERATION = 8000");
-  }
-  replace("DISPLAY = axis", "DISPLAY = ./display.py");
-  replace("HALFILE = probewright_feel.tcl",
-          "HALFILE = " + (session_.source() / "linuxcnc/feel/probewright_feel.tcl").string());
-  replace("libprobewright_interp.so", (session_.build() / "linuxcnc/interpreter/libprobewright_interp.so").string());
-  replace("SETUP = practice.toml", "SETUP = setup.toml\nPROGRAM = " + binary);
-  replace("CONTROL = control.toml\n", "");
-  session_.write("test.ini", ini);
-  session_.display("PROGRAM = '" + binary + "'\nname = '" + program + "'\nways = '" +
-                   (longRun() ? "measured outside" : GetParam().way) + R"('
+  mill_.replace("MIN_LIMIT = -300\nMAX_LIMIT = 300", "MIN_LIMIT = -500\nMAX_LIMIT = 500");
+  mill_.replace("MIN_LIMIT = -200\nMAX_LIMIT = 200", "MIN_LIMIT = -300\nMAX_LIMIT = 300");
+  mill_.replace("MIN_LIMIT = -300\nMAX_LIMIT = 1\n", "MIN_LIMIT = -600\nMAX_LIMIT = 10\n");
+  if (!longRun()) mill_.hurry();
+  mill_.replace("SETUP = practice.toml", "SETUP = setup.toml");
+  mill_.replace("CONTROL = control.toml\n", "");
+  const std::string output = mill_.run("PROGRAM = '" + mill_.program() + "'\nname = '" + program + "'\nways = '" +
+                                           (longRun() ? "measured outside" : GetParam().way) + R"('
 import os, subprocess
 desk.ready()
 if 'measured' in ways:
@@ -130,8 +109,8 @@ if 'measured' in ways:
     desk.mdi('G10 L2 P3 X0 Y0 Z0 R0')
 if 'outside' in ways:
     subprocess.run([PROGRAM, 'run', name, '--setup', 'setup.toml', '--machine', 'linuxcnc', '--out', 'outside', '--quiet'])
-)");
-  const std::string output = session_.run("test.ini", 560);
+)",
+                                       560);
   const auto file = [&](const std::string& name) { return " '" + (session_.outside() / name).string() + "'"; };
   const std::string virtually = PROBEWRIGHT_BUILD_DIR "/apps/probewright/probewright run --quiet" + file(program) +
                                 " --setup" + file("setup.toml") + " --out" + file("virtual");

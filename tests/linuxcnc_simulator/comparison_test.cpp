@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "support/linuxcnc_session.hpp"
+#include "linuxcnc_simulator/example_mill.hpp"
 
 /// The same bore and the same corner measured on LinuxCNC by G38 macros as people write them and by cycles 412 and 414.
 /// docs/linuxcnc.md shows what came out.
 namespace probewright::testing {
 namespace {
 
-constexpr double bound = 300.0 / 60 * 0.001 + 1e-4;  // mm: a servo period at the probing feed
+constexpr double bound = within(300);
 
 // The truth: the plate lies here, the ball a little beside the spindle axis.
 constexpr double plateX = 1.7, plateY = -0.9, skew = 0.5;
@@ -86,30 +86,17 @@ std::vector<double> preset(const std::filesystem::path& file, int number) {
 }
 
 TEST(G38MacrosAndCycles, MeasureTheSameBoreAndCorner) {
-  LinuxCncSession session(PROBEWRIGHT_SOURCE_DIR, PROBEWRIGHT_BUILD_DIR);
-  if (!session.needModule("linuxcnc/feel/probewright_feel.so"))
-    GTEST_SKIP() << "only root can lend LinuxCNC a module that is not installed";
-  const std::filesystem::path example = std::filesystem::path(PROBEWRIGHT_SOURCE_DIR) / "examples/linuxcnc/mill3";
-  for (const auto& file : std::filesystem::directory_iterator(example))
-    std::filesystem::copy(file, session.outside() / file.path().filename());
-  std::ifstream text(example / "mill3.ini");
-  std::string ini((std::istreambuf_iterator<char>(text)), {});
-  const auto replace = [&](const std::string& what, const std::string& by) {
-    ASSERT_NE(ini.find(what), std::string::npos) << what;
-    ini.replace(ini.find(what), what.size(), by);
-  };
-  const std::string program = (session.build() / "apps/probewright/probewright").string();
-  replace("INTERPRETER = libprobewright_interp.so\n", "");
-  replace("DISPLAY = axis", "DISPLAY = ./display.py");
-  replace("HALFILE = probewright_feel.tcl",
-          "HALFILE = " + (session.source() / "linuxcnc/feel/probewright_feel.tcl").string());
-  // The macros set X and Y of G54 only: what the cycles begin with is the setup's.
-  replace("SETUP = practice.toml", "SETUP = practice.toml\nSHARE_TABLES = 0\nPROGRAM = " + program);
-  session.write("test.ini", ini);
+  ExampleMill mill;
+  if (!mill.feels()) GTEST_SKIP() << ExampleMill::unfelt;
+  mill.copyAll();
+  mill.leaveInterpreterOut();
+  const LinuxCncSession& session = mill.session;
+  // The macros leave what they have found in G54: what the cycles begin with is the setup's.
+  mill.replace("SETUP = practice.toml", "SETUP = practice.toml\nSHARE_TABLES = 0");
   session.write("practice.toml", world);
   session.write("bore.h", bore412);
   session.write("corner.h", corner414);
-  session.display("PROGRAM = '" + program + R"('
+  const std::string output = mill.run("PROGRAM = '" + mill.program() + R"('
 import subprocess
 def timed(name, action):
     desk.tell('begin', name)
@@ -126,14 +113,9 @@ timed('macrobore', lambda: desk.run('bore.ngc'))
 timed('macrocorner', lambda: desk.run('corner.ngc'))
 timed('cyclebore', lambda: cycle('bore'))
 timed('cyclecorner', lambda: cycle('corner'))
-)");
-  const std::string output = session.run("test.ini", 500);
-  const auto line = [&](const std::string& word) {
-    const std::size_t at = output.find("\n" + word + " ");
-    return at == std::string::npos ? std::vector<double>{}
-                                   : LinuxCncSession::told("desk: " + output.substr(at + 1), word);
-  };
-  const auto macroBore = line("bore"), macroCorner = line("corner");
+)",
+                                      500);
+  const auto macroBore = line(output, "bore"), macroCorner = line(output, "corner");
   const auto cycleBore = preset(session.outside() / "bore/PRESET.PR", 2);
   const auto cycleCorner = preset(session.outside() / "corner/PRESET.PR", 3);
   ASSERT_EQ(macroBore.size(), 4U) << output;

@@ -1,15 +1,17 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <string>
 #include <vector>
 
-#include "support/linuxcnc_session.hpp"
+#include "linuxcnc_simulator/example_mill.hpp"
 
 /// The examples as the documents start them, without a screen.
 namespace probewright::testing {
@@ -18,8 +20,7 @@ namespace {
 class LinuxCncExamples : public ::testing::Test {
 protected:
   void SetUp() override {
-    if (!session_.needModule("linuxcnc/feel/probewright_feel.so"))
-      GTEST_SKIP() << "only root can lend LinuxCNC a module that is not installed";
+    if (!session_.needModule("linuxcnc/feel/probewright_feel.so")) GTEST_SKIP() << ExampleMill::unfelt;
   }
   std::string start(const std::string& words) const {
     return session_.command("env PROBEWRIGHT_BUILD='" + session_.build().string() + "' '" +
@@ -28,14 +29,7 @@ protected:
   LinuxCncSession session_{PROBEWRIGHT_SOURCE_DIR, PROBEWRIGHT_BUILD_DIR};
 };
 
-/// The numbers of the line that begins with `word`.
-std::vector<double> line(const std::string& output, const std::string& word) {
-  const std::size_t at = output.find("\n" + word + " ");
-  if (at == std::string::npos) return {};
-  return LinuxCncSession::told("desk: " + output.substr(at + 1), word);
-}
-
-constexpr double bound = 300.0 / 60 * 0.001 + 1e-4;  // mm: a servo period at the probing feed
+constexpr double bound = within(300);
 constexpr double pretravel = 0.004;
 
 TEST_F(LinuxCncExamples, FindTheMiddleOfABoreOnTheMill) {
@@ -99,10 +93,115 @@ TEST_F(LinuxCncExamples, TouchTheSamePlaceUprightAndTilted) {
   const std::string output = start("mill5 tilted.ngc");
   const auto top = line(output, "top");
   ASSERT_EQ(top.size(), 2U) << output;
-  // The top lies at Z-250, the centre of the ball 3 mm above it. Pretravel acts across the stylus only, and along the
-  // way: tilted by 30 degrees a quarter of it.
-  EXPECT_NEAR(top[0], -247, bound) << output;
-  EXPECT_NEAR(top[1], -247 - pretravel / 4, bound) << output;
+  // The top lies at Z0 of G54, the centre of the ball 3 mm above it. Pretravel acts across the stylus only, and along
+  // the way: tilted by 30 degrees a quarter of it.
+  EXPECT_NEAR(top[0], 3, bound) << output;
+  EXPECT_NEAR(top[1], 3 - pretravel / 4, bound) << output;
+}
+
+/// In one session: each program, and after each of them each.
+TEST_F(LinuxCncExamples, RunOneAfterTheOther) {
+  constexpr double feed = 1200, near = within(feed);
+  ExampleMill mill;
+  if (!mill.feels()) GTEST_SKIP() << ExampleMill::unfelt;
+  mill.copyAll();
+  mill.hurry();
+  mill.replace("control.toml", "probing_feed = 300", "probing_feed = 1200");
+  for (const char* macro : {"bore.ngc", "corner.ngc"})
+    mill.replace(macro, "F300", "F1200");
+  const std::map<char, std::string> programs = {
+      {'h', "bore.h"}, {'s', "bore.mpf"}, {'b', "bore.ngc"}, {'c', "corner.ngc"}};
+  const std::string order = "hhshbhcssbscbbcch";
+  std::string script = R"(
+import os
+def measure(number, name):
+    desk.messages.clear()
+    desk.run(name)
+    if not name.endswith('.ngc'):
+        desk.until('results', lambda s: os.path.exists('measured/results.json'), 300)
+        desk.until('the end', lambda s: s.interp_state == linuxcnc.INTERP_IDLE and s.inpos)
+        os.rename('measured', 'measured-%d' % number)
+    desk.mdi('(PRINT,desk: after%d #5221 #5222 #5223 #5230 #5241 #5242 #5243)' % number)
+    desk.tell('said%d' % number, *[message.replace(chr(10), ' ') for message in desk.messages])
+desk.ready()
+)";
+  for (std::size_t i = 0; i < order.size(); ++i)
+    script += "measure(" + std::to_string(i) + ", '" + programs.at(order[i]) + "')\n";
+  const std::string output = mill.run(script, 560);
+  std::vector<double> before, corner;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const std::string which = "run " + std::to_string(i) + ", " + programs.at(order[i]);
+    const std::vector<double> now = LinuxCncSession::told(output, "after" + std::to_string(i));
+    ASSERT_EQ(now.size(), 7U) << which << output;
+    std::smatch said;
+    ASSERT_TRUE(std::regex_search(output, said, std::regex("desk: said" + std::to_string(i) + "([^\n]*)")));
+    const std::string messages = said[1];
+    if (order[i] == 'c') {
+      for (std::size_t k = 0; k < 4; ++k)
+        EXPECT_EQ(now[k], before[k]) << which << ": the corner is none of G54's business";
+      // One touch a side of a skewed plate: near the corner, at the same place each time.
+      EXPECT_NEAR(now[4], 1.7 - 40, 0.6) << which;
+      EXPECT_NEAR(now[5], -0.9 - 30, 0.6) << which;
+      if (!corner.empty()) {
+        EXPECT_NEAR(now[4], corner[4], 2 * near) << which;
+        EXPECT_NEAR(now[5], corner[5], 2 * near) << which;
+      }
+      corner = now;
+      EXPECT_NE(messages.find("the corner is at X-38."), std::string::npos) << which << messages;
+    } else {
+      EXPECT_NEAR(now[0], 1.7, near) << which << output;
+      EXPECT_NEAR(now[1], -0.9, near) << which;
+      EXPECT_NEAR(now[2], -250, near) << which;
+      EXPECT_EQ(now[3], 0) << which;
+    }
+    if (order[i] == 'b') {
+      std::smatch diameter;
+      ASSERT_TRUE(std::regex_search(messages, diameter,
+                                    std::regex("the bore is at X1\\.[67][0-9]* Y-0\\.[89][0-9]*, "
+                                               "its diameter is ([0-9.]+)")))
+          << messages;
+      EXPECT_NEAR(std::stod(diameter[1]), 30.01 + 2 * pretravel, 2 * near);
+    }
+    if (order[i] == 'h' || order[i] == 's') {
+      const std::string results = contents(mill.session.outside() / ("measured-" + std::to_string(i)) / "results.json");
+      EXPECT_NE(results.find(R"("exit":{"code":0)"), std::string::npos) << which << messages;
+    }
+    before = now;
+  }
+}
+
+TEST_F(LinuxCncExamples, RunOneAfterTheOtherOnFiveAxes) {
+  ExampleMill mill("mill5");
+  if (!mill.feels()) GTEST_SKIP() << ExampleMill::unfelt;
+  mill.copyAll();
+  mill.hurry();
+  const std::string output = mill.run(R"(
+import os
+desk.ready()
+for number, name in enumerate(('tilted.h', 'tilted.h', 'tilted.ngc', 'tilted.ngc', 'tilted.h')):
+    desk.tell('begin', number)
+    desk.run(name)
+    if name == 'tilted.h':
+        desk.until('results', lambda s: os.path.exists('measured/results.json'), 300)
+        desk.until('the end', lambda s: s.interp_state == linuxcnc.INTERP_IDLE and s.inpos)
+        os.rename('measured', 'measured-%d' % number)
+)",
+                                      560);
+  for (const int number : {2, 3}) {
+    const auto top =
+        line(output.substr(std::min(output.size(), output.find("begin " + std::to_string(number)))), "top");
+    ASSERT_EQ(top.size(), 2U) << output;
+    EXPECT_NEAR(top[0], 3, bound) << output;
+    EXPECT_NEAR(top[1], 3 - pretravel / 4, bound) << output;
+  }
+  const std::vector<double> first = touchesIn(mill.session.outside() / "measured-0/results.json");
+  ASSERT_EQ(first.size(), 10U) << output;
+  for (const char* again : {"measured-1", "measured-4"}) {
+    const std::vector<double> touches = touchesIn(mill.session.outside() / again / "results.json");
+    ASSERT_EQ(touches.size(), 10U) << again << output;
+    for (std::size_t i = 0; i < 10; ++i)
+      EXPECT_NEAR(touches[i], first[i], bound) << again << ", touch " << i / 5 << ", axis " << i % 5;
+  }
 }
 
 }  // namespace

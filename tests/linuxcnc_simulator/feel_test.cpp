@@ -4,7 +4,7 @@
 #include <cmath>
 #include <regex>
 
-#include "support/linuxcnc_session.hpp"
+#include "linuxcnc_simulator/example_mill.hpp"
 
 /// Programs in plain G-code on a real LinuxCNC whose probe feels a virtual part.
 namespace probewright::testing {
@@ -13,37 +13,19 @@ namespace {
 /// The example's mill with another part and another display.
 class Feeling : public ::testing::Test {
 protected:
-  Feeling() : session_(PROBEWRIGHT_SOURCE_DIR, PROBEWRIGHT_BUILD_DIR) {
-    const std::filesystem::path example = std::filesystem::path(PROBEWRIGHT_SOURCE_DIR) / "examples/linuxcnc/mill3";
-    for (const auto& file : std::filesystem::directory_iterator(example))
-      std::filesystem::copy(file, session_.outside() / file.path().filename());
-    std::ifstream text(example / "mill3.ini");
-    std::string ini((std::istreambuf_iterator<char>(text)), {});
-    const auto replace = [&](const std::string& what, const std::string& by) {
-      const std::size_t at = ini.find(what);
-      ASSERT_NE(at, std::string::npos) << what;
-      ini.replace(at, what.size(), by);
-    };
-    replace("INTERPRETER = libprobewright_interp.so\n", "");
-    replace("DISPLAY = axis", "DISPLAY = ./display.py");
-    replace("HALFILE = probewright_feel.tcl",
-            "HALFILE = " + (session_.source() / "linuxcnc/feel/probewright_feel.tcl").string());
-    replace("SETUP = practice.toml",
-            "SETUP = practice.toml\nPROGRAM = " + (session_.build() / "apps/probewright/probewright").string());
-    session_.write("test.ini", ini);
+  Feeling() {
+    mill_.copyAll();
+    mill_.leaveInterpreterOut();
   }
 
   void SetUp() override {
-    if (!session_.needModule("linuxcnc/feel/probewright_feel.so"))
-      GTEST_SKIP() << "only root can lend LinuxCNC a module that is not installed";
+    if (!mill_.feels()) GTEST_SKIP() << ExampleMill::unfelt;
   }
 
-  std::string run(const std::string& display) {
-    session_.display(display);
-    return session_.run("test.ini");
-  }
+  std::string run(const std::string& display) { return mill_.run(display); }
 
-  LinuxCncSession session_;
+  ExampleMill mill_;
+  const LinuxCncSession& session_ = mill_.session;
 };
 
 constexpr double period = 0.001;       // s

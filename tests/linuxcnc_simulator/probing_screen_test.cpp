@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "support/linuxcnc_session.hpp"
+#include "linuxcnc_simulator/example_mill.hpp"
 
 /// LinuxCNC's own probing screens practise on the simulator: what QtVCP's probing pages (of QtDragon and others) do
 /// when a button is pressed, in the program that they start for it.
@@ -13,27 +13,12 @@ namespace probewright::testing {
 namespace {
 
 TEST(ProbingScreens, OfQtVcpFindTheBoreThatTheSimulatorFeels) {
-  LinuxCncSession session(PROBEWRIGHT_SOURCE_DIR, PROBEWRIGHT_BUILD_DIR);
-  if (!session.needModule("linuxcnc/feel/probewright_feel.so"))
-    GTEST_SKIP() << "only root can lend LinuxCNC a module that is not installed";
-  const std::filesystem::path example = std::filesystem::path(PROBEWRIGHT_SOURCE_DIR) / "examples/linuxcnc/mill3";
-  for (const auto& file : std::filesystem::directory_iterator(example))
-    std::filesystem::copy(file, session.outside() / file.path().filename());
-  std::ifstream text(example / "mill3.ini");
-  std::string ini((std::istreambuf_iterator<char>(text)), {});
-  const auto replace = [&](const std::string& what, const std::string& by) {
-    ASSERT_NE(ini.find(what), std::string::npos) << what;
-    ini.replace(ini.find(what), what.size(), by);
-  };
-  replace("INTERPRETER = libprobewright_interp.so\n", "");
-  replace("DISPLAY = axis", "DISPLAY = ./display.py");
-  replace("HALFILE = probewright_feel.tcl",
-          "HALFILE = " + (session.source() / "linuxcnc/feel/probewright_feel.tcl").string());
-  replace("SETUP = practice.toml",
-          "SETUP = practice.toml\nPROGRAM = " + (session.build() / "apps/probewright/probewright").string());
-  session.write("test.ini", ini);
+  ExampleMill mill;
+  if (!mill.feels()) GTEST_SKIP() << ExampleMill::unfelt;
+  mill.copyAll();
+  mill.leaveInterpreterOut();
   // The ball begins 12 mm above its height in the bore, near its middle.
-  session.display(R"(
+  const std::string output = mill.run(R"(
 import json, os, subprocess
 desk.ready()
 desk.mdi('T1 M6 G43')
@@ -49,9 +34,7 @@ found = subprocess.run(['/usr/bin/python3', '/usr/lib/python3/dist-packages/qtvc
                        env=dict(os.environ, QT_QPA_PLATFORM='offscreen')).stdout
 with open('found', 'w') as file: file.write(next((line for line in found.split('\n') if line.startswith('COMPLETE$')), found))
 )");
-  const std::string output = session.run("test.ini", 300);
-  std::ifstream file(session.outside() / "found");
-  const std::string found((std::istreambuf_iterator<char>(file)), {});
+  const std::string found = contents(mill.session.outside() / "found");
   ASSERT_TRUE(found.starts_with("COMPLETE$")) << found << output;
   const auto told = nlohmann::json::parse(found.substr(found.find('$') + 1));
   const auto value = [&](const char* name) { return std::stod(told.at(name).get<std::string>()); };
