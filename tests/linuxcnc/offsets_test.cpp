@@ -96,8 +96,9 @@ ended(desk, 'run', start('bore.h'))
 
 class OffsetsAsInterpreter : public AsInterpreter {};
 
-/// A program of ours has written G54 when it is stopped, while it positions for the next cycle.
-TEST_F(OffsetsAsInterpreter, AreToldAsTheyAreAfterAnEmergencyStop) {
+/// A program of ours has written G54 when it is stopped, while it positions for the next cycle; then another one
+/// measures, by both ways.
+TEST_F(OffsetsAsInterpreter, AreToldAsTheyAreAfterAStop) {
   std::string believed = setup("TNC640", world, feed);
   const std::string origin = "origin = [0, 0, -250]";
   ASSERT_NE(believed.find(origin), std::string::npos);
@@ -105,38 +106,52 @@ TEST_F(OffsetsAsInterpreter, AreToldAsTheyAreAfterAnEmergencyStop) {
   session_.write("setup.toml", believed);
   session_.write("bore.h", klartext());
   atTheDesk(std::string(keeps) + looks + call(world) + R"(
-desk.mdi('G10 L2 P1 X0 Y0 Z-248 R0')
-begin('bore.h')
-desk.until('the touch of cycle 417', lambda s: s.probe_tripped)
-desk.until('the way to the bore', lambda s: s.current_vel > 0 and s.position[0] < 20)
-desk.command.state(linuxcnc.STATE_ESTOP)
-keep('estop')
-desk.switch_on()
-tell_offsets('stopped')
-run = start('bore.h', 'outside')
-watch(run)
-ended(desk, 'outside', run)
+def estop():
+    desk.command.state(linuxcnc.STATE_ESTOP)
+def command(name):
+    estop()
+    keep(name)
+    desk.switch_on()
+def quick(name):
+    estop()
+    desk.switch_on()
+    keep(name)
+def chain(name):
+    subprocess.run(['halcmd', 'unlinkp', 'iocontrol.0.emc-enable-in'], check=True)
+    hal('iocontrol.0.emc-enable-in', 0)
+    keep(name)
+    subprocess.run(['halcmd', 'net', 'estop-loop', 'iocontrol.0.emc-enable-in'], check=True)
+    desk.switch_on()
+def abort(name):
+    desk.command.abort()
+    keep(name)
+for stop in (command, quick, chain, abort):
+    name = stop.__name__
+    desk.mdi('G53 G0 Z-100')
+    desk.mdi('G10 L2 P1 X0 Y0 Z-248 R0')
+    begin('bore.h')
+    desk.until('the way to the top', lambda s: s.current_vel > 0 and s.position[0] > 20)
+    desk.until('the touch of cycle 417', lambda s: not s.probing and s.probe_tripped and s.position[2] < -148)
+    desk.until('the way to the bore', lambda s: s.current_vel > 0 and s.position[0] < 20)
+    stop(name)
+    still(desk)
+    tell_offsets(name)
+    run_outside = start('bore.h', name + '-outside')
+    watch(run_outside)
+    ended(desk, name + '-outside', run_outside)
+run('bore.h', 'inside')
 desk.tell('lowest', lowest[0])
-tell_offsets('after')
-desk.mdi('G53 G0 Z-100')
-desk.mdi('G10 L2 P1 X0 Y0 Z-248 R0')
-begin('bore.h')
-desk.until('the touch of cycle 417', lambda s: not s.probe_tripped)
-desk.until('the touch of cycle 417', lambda s: s.probe_tripped)
-desk.until('the way to the bore', lambda s: s.current_vel > 0 and s.position[0] < 20)
-desk.command.state(linuxcnc.STATE_ESTOP)
-keep('again')
-desk.switch_on()
-begin('bore.h')
-keep('inside')
-)");
-  const std::vector<double> held = session_.told(output, "stopped-held"),
-                            status = session_.told(output, "stopped-told");
-  ASSERT_EQ(held.size(), 4U) << output;
-  EXPECT_NEAR(held[2], world.top, bound) << "cycle 417 has written Z";
-  EXPECT_EQ(held, status);
-  EXPECT_THAT(told("outside"), StartsWith("0 ")) << output;
-  for (const char* folder : {"outside", "inside"}) {
+)",
+            500);
+  for (const std::string name : {"command", "quick", "chain", "abort"}) {
+    const std::vector<double> held = session_.told(output, name + "-held"),
+                              status = session_.told(output, name + "-told");
+    ASSERT_EQ(held.size(), 4U) << output;
+    EXPECT_NEAR(held[2], world.top, bound) << name << ": cycle 417 has written Z";
+    EXPECT_EQ(held, status) << name;
+    EXPECT_THAT(told(name + "-outside"), StartsWith("0 ")) << output;
+  }
+  for (const char* folder : {"command-outside", "quick-outside", "chain-outside", "abort-outside", "inside"}) {
     const std::vector<double> found = preset(folder);
     ASSERT_EQ(found.size(), 3U) << folder << output;
     EXPECT_NEAR(found[0], world.x, bound) << folder;
@@ -149,7 +164,7 @@ keep('inside')
 }
 
 /// Offsets of all kinds that a program of LinuxCNC's own has left in line.
-TEST_F(OffsetsAsInterpreter, AreTheOnesOfTheMovesAfterAStop) {
+TEST_F(OffsetsAsInterpreter, AreTheOnesOfTheMovesAfterLinuxCncsOwnProgram) {
   session_.write("setup.toml", setup("TNC640", world, feed));
   session_.write("bore.h", klartext());
   session_.write("queued.ngc", queued);
