@@ -163,8 +163,9 @@ desk.ready()
       EXPECT_NEAR(std::stod(diameter[1]), 30.01 + 2 * pretravel, 2 * near);
     }
     if (order[i] == 'h' || order[i] == 's') {
-      const std::string results = contents(mill.session.outside() / ("measured-" + std::to_string(i)) / "results.json");
-      EXPECT_NE(results.find(R"("exit":{"code":0)"), std::string::npos) << which << messages;
+      const auto results = nlohmann::json::parse(
+          contents(mill.session.outside() / ("measured-" + std::to_string(i)) / "results.json"), nullptr, false);
+      EXPECT_NE(results.dump().find(R"("exit":{"code":0)"), std::string::npos) << which << messages;
     }
     before = now;
   }
