@@ -4,6 +4,7 @@
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
+#include <GeomAPI_ProjectPointOnCurve.hxx>
 #include <Geom_Curve.hxx>
 #include <Geom_Surface.hxx>
 #include <IGESControl_Reader.hxx>
@@ -47,6 +48,7 @@
 
 #include "simulation/cad_cones.hpp"
 #include "simulation/cad_corrections.hpp"
+#include "simulation/cad_edges.hpp"
 #include "simulation/cad_face.hpp"
 #include "simulation/cad_model.hpp"
 #include "simulation/cad_step_library.hpp"
@@ -242,6 +244,15 @@ void nameUnusedFaces(const XSControl_Reader& reader, const ChildVoice& voice) {
 }
 
 constexpr double kNowhere = std::numeric_limits<double>::infinity();
+constexpr double kWorthNaming = 0.01;  // mm
+
+/// How far a point is from a piece of a curve.
+double distanceOf(const gp_Pnt& point, const Handle(Geom_Curve) & curve, double first, double last) {
+  double nearest = std::min(point.Distance(curve->Value(first)), point.Distance(curve->Value(last)));
+  const GeomAPI_ProjectPointOnCurve feet(point, curve, first, last);
+  if (feet.NbPoints() > 0) nearest = std::min(nearest, feet.LowerDistance());
+  return nearest;
+}
 
 /// By how much the edges of a face leave its surface, or its vertices its edges; kNowhere if an edge has no place on
 /// it.
@@ -259,7 +270,10 @@ double gapsOf(const TopoDS_Face& face) {
     for (int k = 0; k <= kPlaces; ++k) {
       const double share = static_cast<double>(k) / kPlaces;
       const gp_Pnt2d uv = onSurface->Value(from + share * (to - from));
-      gap = std::max(gap, curve->Value(first + share * (last - first)).Distance(surface->Value(uv.X(), uv.Y())));
+      const gp_Pnt place = surface->Value(uv.X(), uv.Y());
+      const double apart = curve->Value(first + share * (last - first)).Distance(place);
+      // Some systems go along an edge at another pace on the surface than in space.
+      if (apart > gap && apart > kWorthNaming) gap = std::max(gap, distanceOf(place, curve, first, last));
     }
     const TopoDS_Edge forward = TopoDS::Edge(edge.Oriented(TopAbs_FORWARD));
     for (const bool atStart : {true, false}) {
@@ -291,7 +305,6 @@ bool isWithoutEnd(const TopoDS_Face& face) {
 
 /// Names the faces that do not fit together: one wrong digit in a file does that.
 void nameGaps(const XSControl_Reader& reader, const ChildVoice& voice) {
-  constexpr double kWorthNaming = 0.01;  // mm
   const Handle(Interface_InterfaceModel) model = reader.WS()->Model();
   const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();
   struct Made {
@@ -398,6 +411,7 @@ void transferCad(const TransferOrder& order, const ChildVoice& voice) {
       shape = BRepBuilderAPI_Transform(shape, enlarge, Standard_True).Shape();
     }
     nameOpenEdges(shape, voice);
+    sharpenEdges(shape);
     voice.say("stage looking for kinks");
     shape = withoutKinks(shape);
     // What cannot survive this must not happen in the parent.

@@ -1,5 +1,6 @@
 #include "meant.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -79,7 +80,10 @@ void expectAsMeant(const std::string& name, const Solid& solid, const Distance& 
     }
     ++wrong;
     ADD_FAILURE() << name << ", way " << i << " from " << from.transpose() << " to " << to.transpose() << " radius "
-                  << radius << ": ends after " << way << ", should after " << expected.value_or(-1);
+                  << radius << ": ends after " << way << ", should after " << expected.value_or(-1)
+                  << (contact ? fmt::format(", {:.3g} mm too far from what is meant",
+                                            distance(contact->ballCentre) - radius)
+                              : "");
   }
   EXPECT_GT(contacts, ways / 10) << name;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace probewright::simulation::testing {
@@ -12,6 +13,22 @@ std::string igesNumber(double value) {
   if (text.find('.') == std::string::npos) text.insert(e == std::string::npos ? text.size() : e, ".");
   if (e != std::string::npos) text[text.find('e')] = 'D';
   return text;
+}
+
+int arcSpans(double from, double to) { return static_cast<int>(std::ceil((to - from) / 1.6)); }
+
+double arcParameter(double from, double to, double angle) {
+  const int spans = arcSpans(from, to);
+  const double half = (to - from) / spans / 2;
+  const int span = std::clamp(static_cast<int>((angle - from) / (2 * half)), 0, spans - 1);
+  const double wanted = angle - from - (2 * span + 1) * half;  // from the middle of the piece
+  double low = 0, high = 1;
+  for (int i = 0; i < 100; ++i) {
+    const double t = (low + high) / 2;
+    const double y = std::sin(half) * (2 * t - 1), x = std::cos(half) * (1 - 2 * t * (1 - t)) + 2 * t * (1 - t);
+    (std::atan2(y, x) < wanted ? low : high) = t;
+  }
+  return span + (low + high) / 2;
 }
 
 std::string IgesFile::length(double mm) const {
@@ -33,7 +50,7 @@ int IgesFile::line(const Vector3& from, const Vector3& to, bool dependent) {
 }
 
 int IgesFile::arc(const Pose& pose, double radius, double from, double to) {
-  const int spans = static_cast<int>(std::ceil((to - from) / 1.6));
+  const int spans = arcSpans(from, to);
   const double half = (to - from) / spans / 2;
   std::string knots = "0.,0.,0.", weights, points;
   for (int i = 0; i <= 2 * spans; ++i) {
@@ -51,6 +68,29 @@ int IgesFile::arc(const Pose& pose, double radius, double from, double to) {
              fmt::format("{},2,1,0,0,0,{},{},{},0.,{}.,{},{},{}", 2 * spans, knots, weights, points, spans,
                          igesNumber(normal.x()), igesNumber(normal.y()), igesNumber(normal.z())),
              0, 0, "00010000");
+}
+
+int IgesFile::cylinder(const Pose& pose, double radius, double z0, double z1, double u0, double u1,
+                       const std::string& use, int matrix) {
+  const int spans = arcSpans(u0, u1);
+  const double half = (u1 - u0) / spans / 2;
+  std::string knots = "0.,0.,0.", weights, points;
+  for (int i = 1; i < spans; ++i)
+    knots += fmt::format(",{0}.,{0}.", i);
+  knots += fmt::format(",{0}.,{0}.,{0}.", spans);
+  for (const double z : {z0, z1}) {
+    for (int i = 0; i <= 2 * spans; ++i) {
+      const bool between = i % 2 == 1;
+      const double angle = u0 + i * half, r = between ? radius / std::cos(half) : radius;
+      weights += fmt::format("{}{}", weights.empty() ? "" : ",", igesNumber(between ? std::cos(half) : 1));
+      points += fmt::format("{}{}", points.empty() ? "" : ",",
+                            point(pose * Vector3(r * std::cos(angle), r * std::sin(angle), z)));
+    }
+  }
+  return add(
+      128,
+      fmt::format("{},1,2,1,0,0,0,0,0,{},0.,0.,1.,1.,{},{},0.,{}.,0.,1.", 2 * spans, knots, weights, points, spans), 0,
+      matrix, use);
 }
 
 int IgesFile::matrix(const Matrix3& turn, const Vector3& shift, int form) {

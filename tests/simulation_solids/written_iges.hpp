@@ -27,6 +27,10 @@ public:
   int line(const Vector3& from, const Vector3& to, bool dependent = true);
   /// A circular arc as a rational spline, anticlockwise about z.
   int arc(const Pose& pose, double radius, double from, double to);
+  /// A whole or partial cylinder about Z of a pose as one rational spline surface: u around, from 0 to arcSpans(), v
+  /// along, from 0 to 1.
+  int cylinder(const Pose& pose, double radius, double z0, double z1, double u0, double u1,
+               const std::string& use = "00000000", int matrix = 0);
   int matrix(const Matrix3& turn, const Vector3& shift, int form = 0);
   std::string text() const;
 
@@ -40,5 +44,10 @@ private:
 };
 
 std::string igesNumber(double value);
+
+/// Into how many rational pieces arc() and cylinder() cut an angle.
+int arcSpans(double from, double to);
+/// The parameter of arc() and cylinder() at an angle.
+double arcParameter(double from, double to, double angle);
 
 }  // namespace probewright::simulation::testing

@@ -14,30 +14,6 @@ using namespace testing;
 
 constexpr double kPi = std::numbers::pi;
 
-/// A whole or partial cylinder about Z of a pose as one rational spline surface: u around, v along.
-int cylinderPatch(IgesFile& file, const Pose& pose, double radius, double z0, double z1, double u0, double u1,
-                  const std::string& use = "00000000", int matrix = 0) {
-  const int spans = static_cast<int>(std::ceil((u1 - u0) / 1.6));
-  const double half = (u1 - u0) / spans / 2;
-  std::string knots = "0.,0.,0.", weights, points;
-  for (int i = 1; i < spans; ++i)
-    knots += fmt::format(",{0}.,{0}.", i);
-  knots += fmt::format(",{0}.,{0}.,{0}.", spans);
-  for (const double z : {z0, z1}) {
-    for (int i = 0; i <= 2 * spans; ++i) {
-      const bool between = i % 2 == 1;
-      const double angle = u0 + i * half, r = between ? radius / std::cos(half) : radius;
-      weights += fmt::format("{}{}", weights.empty() ? "" : ",", igesNumber(between ? std::cos(half) : 1));
-      points += fmt::format("{}{}", points.empty() ? "" : ",",
-                            file.point(pose * Vector3(r * std::cos(angle), r * std::sin(angle), z)));
-    }
-  }
-  return file.add(
-      128,
-      fmt::format("{},1,2,1,0,0,0,0,0,{},0.,0.,1.,1.,{},{},0.,{}.,0.,1.", 2 * spans, knots, weights, points, spans), 0,
-      matrix, use);
-}
-
 void expectRead(const std::string& name, const IgesFile& file, const Distance& distance, double size,
                 const Vector3& middle, std::mt19937_64& random, int ways) {
   const ScratchFolder folder;
@@ -53,7 +29,7 @@ TEST(WrittenIges, SplinesWithoutLimitsAreMetWhereTheyAre) {
       const Pose pose = randomPose(random, 40);
       const double u0 = uniform(random, -9, 9), u1 = whole ? u0 + 2 * kPi : u0 + uniform(random, 0.5, 5);
       IgesFile file({flag, 1});
-      cylinderPatch(file, pose, 12, -5, 20, u0, u1);
+      file.cylinder(pose, 12, -5, 20, u0, u1);
       expectRead(fmt::format("unit {} {}", flag, whole ? "whole" : "part"), file,
                  distanceOfShell(12, -5, 20, u0, u1, pose), 40, pose * Vector3(0, 0, 7), random, 40);
     }
@@ -65,7 +41,7 @@ TEST(WrittenIges, ModelsOfAnotherScaleHaveTheirTrueSize) {
   for (const double scale : {0.5, 4.0}) {
     const Pose pose = randomPose(random, 40);
     IgesFile file({2, scale});
-    cylinderPatch(file, pose, 12, -5, 20, 0.2, 4);
+    file.cylinder(pose, 12, -5, 20, 0.2, 4);
     expectRead(fmt::format("scale {}", scale), file, distanceOfShell(12, -5, 20, 0.2, 4, pose), 40,
                pose * Vector3(0, 0, 7), random, 40);
   }
@@ -108,7 +84,7 @@ TEST(WrittenIges, OffsetsLieOnTheSideThatTheirVectorNames) {
       const double from = downwards ? -1.5 : 0.2, to = from + 1.3;
       IgesFile file({1, 1});
       const int basis =
-          cylinderPatch(file, seen, inwards ? 14 : 10, downwards ? 5 : -5, downwards ? -20 : 20, from, to, "00010000");
+          file.cylinder(seen, inwards ? 14 : 10, downwards ? 5 : -5, downwards ? -20 : 20, from, to, "00010000");
       const double middle = (from + to) / 2;
       const Vector3 out = seen.linear() * Vector3(std::cos(middle), std::sin(middle), 0) * (inwards ? -1 : 1);
       file.add(140, fmt::format("{},{},{},{},{}", igesNumber(out.x()), igesNumber(out.y()), igesNumber(out.z()),
@@ -128,7 +104,7 @@ TEST(WrittenIges, TrimmedAndBoundedSurfacesAreMetWithinTheirBorders) {
       IgesFile file({1, 1});
       // Quarters of a turn: u is 0 to 2 over angles from 0.4 to 0.4 + pi; of these the middle part is left.
       const double u0 = 0.4, u1 = 0.4 + kPi;
-      const int surface = cylinderPatch(file, pose, 12, -30, 40, u0, u1, "00010000");
+      const int surface = file.cylinder(pose, 12, -30, 40, u0, u1, "00010000");
       const auto angleAt = [&](double u) {
         // A quarter as a rational parabola: its middle is exact, its ends are, too.
         return u0 + u * kPi / 2;
@@ -170,7 +146,7 @@ TEST(WrittenIges, TrimmedAndBoundedSurfacesAreMetWithinTheirBorders) {
   // The border of the surface itself.
   const Pose pose = randomPose(random, 40);
   IgesFile file;
-  file.add(144, fmt::format("{},0,0,0", cylinderPatch(file, pose, 12, -5, 20, 7, 12, "00010000")));
+  file.add(144, fmt::format("{},0,0,0", file.cylinder(pose, 12, -5, 20, 7, 12, "00010000")));
   expectRead("144 without borders", file, distanceOfShell(12, -5, 20, 7, 12, pose), 40, pose * Vector3(0, 0, 7), random,
              40);
 }
@@ -185,7 +161,7 @@ TEST(WrittenIges, MovedMirroredAndInstancedSurfacesAreMetWhereTheyAre) {
   };
   {
     IgesFile file({1, 1});
-    cylinderPatch(file, own, 12, -5, 20, 0.3, 3, "00000000", file.matrix(move.linear(), move.translation()));
+    file.cylinder(own, 12, -5, 20, 0.3, 3, "00000000", file.matrix(move.linear(), move.translation()));
     expectRead("moved", file, distanceOfShell(12, -5, 20, 0.3, 3, move * own), 40, move * own * Vector3(0, 0, 7),
                random, 40);
   }
@@ -193,7 +169,7 @@ TEST(WrittenIges, MovedMirroredAndInstancedSurfacesAreMetWhereTheyAre) {
     IgesFile file({2, 1});
     Matrix3 mirrored = move.linear();
     mirrored.col(2) *= -1;
-    cylinderPatch(file, own, 12, -5, 20, 0.3, 3, "00000000", file.matrix(mirrored, move.translation(), 1));
+    file.cylinder(own, 12, -5, 20, 0.3, 3, "00000000", file.matrix(mirrored, move.translation(), 1));
     Eigen::Affine3d place = Eigen::Affine3d::Identity();
     place.linear() = mirrored;
     place.translation() = move.translation();
@@ -205,7 +181,7 @@ TEST(WrittenIges, InstancesAtAnotherSizeAreRefused) {
   std::mt19937_64 random(306);
   const auto instanced = [](double scale) {
     IgesFile file({2, 1});
-    const int patch = cylinderPatch(file, Pose::Identity(), 12, -5, 20, 0.3, 3, "00010000");
+    const int patch = file.cylinder(Pose::Identity(), 12, -5, 20, 0.3, 3, "00010000");
     const int part = file.add(308, fmt::format("0,4HPART,1,{}", patch), 0, 0, "00010200");
     file.add(408, fmt::format("{},{},{}", part, file.point({30, -10, 5}), igesNumber(scale)));
     return file;
