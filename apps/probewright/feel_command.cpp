@@ -81,7 +81,7 @@ int feel(const FeelArguments& arguments) {
   auto machine = simulation::buildMachine(setup->world, import);
   if (!machine) {
     print({machine.error()});
-    return 2;
+    return import.stop.stop_requested() ? 3 : 2;
   }
   const auto say = [&](const std::string& what) {
     if (!arguments.quiet) std::fputs(("probewright: " + printable(what) + "\n").c_str(), stderr);

@@ -185,6 +185,7 @@ int run(const RunArguments& arguments) {
   machine.blind = arguments.blind;
   machine.clearance = arguments.clearance;
   machine.import.cache = cacheFolder(arguments.cache);
+  machine.import.stop = options.stop;
   if (const Result<void> tidied = tidyOutput(arguments.out, options.stop); !tidied) {
     print({tidied.error()});
     return 2;
@@ -234,7 +235,8 @@ int run(const RunArguments& arguments) {
     Result<MachineRun> real = runOnMachine(arguments.machine, arguments.program, *setup, options, machine.import);
     if (!real) {
       print({real.error()});
-      return giveUp();
+      const int exit = giveUp();
+      return options.stop.stop_requested() ? 3 : exit;
     }
     ran = std::move(*real);
   }

@@ -12,13 +12,14 @@
 #include "simulation/cad_import.hpp"
 #include "simulation/cad_solid.hpp"
 #include "simulation/import_cache.hpp"
+#include "simulation/import_watch.hpp"
 
 namespace probewright::simulation {
 namespace {
 
 /// To be counted up whenever an import makes something else of the same file, also if only its layout in memory
 /// changes.
-constexpr int kCacheVersion = 14;
+constexpr int kCacheVersion = 15;
 
 /// About faces that STEP does not tell unmistakably: of a circle that meets its axis OpenCASCADE may turn the other
 /// arc.
@@ -38,20 +39,25 @@ void warnOfDoubtfulArcs(const CadModel& model, Diagnostics& remarks) {
                      {}});
 }
 
-Result<std::unique_ptr<Solid>> solidOf(ImportedPart part, CadFormat format, const std::string& file,
-                                       const ImportOptions& options, const std::function<CadModel()>& exact) {
+Result<std::unique_ptr<Solid>> solidOf(ImportedPart part, CadFormat format, const std::string& file, ImportWatch& watch,
+                                       const std::function<CadModel()>& exact) {
   const auto broken = [&](const char* reason) -> tl::unexpected<Diagnostic> {
-    if (options.stop.stop_requested()) return fail(SourcePlace{file, 0, 0}, "the import was interrupted");
+    if (watch.isStopped()) return tl::unexpected(watch.interrupted());
     return fail({file, 0, 0}, fmt::format("the shape cannot be prepared for contact: {}", reason),
                 "export the part again as solid bodies, or as STL");
   };
   try {
+    watch.tell("making it ready");
     CadModel model = exact();
+    watch.goOn();
     takeElements(model, part.elements);
+    watch.goOn();
     if (format == CadFormat::Step) warnOfDoubtfulArcs(model, part.remarks);
     for (Diagnostic& remark : part.remarks)
       remark.place.file = file;
     return std::make_unique<CadSolid>(std::move(model), std::move(part.remarks));
+  } catch (const ImportStopped&) {
+    return tl::unexpected(watch.interrupted());
   } catch (const Standard_Failure& failure) {
     return broken(failure.GetMessageString());
   } catch (const std::runtime_error& failure) {
@@ -64,6 +70,7 @@ Result<std::unique_ptr<Solid>> import(TransferOrder order, const ImportOptions& 
   order.facePoints = options.facePoints;
   const std::string file = order.file;
   const CadFormat format = order.format;
+  ImportWatch watch(file, options);
   const ImportCache cache(options.cache);
   std::string key;
   if (!options.cache.empty()) {
@@ -72,10 +79,10 @@ Result<std::unique_ptr<Solid>> import(TransferOrder order, const ImportOptions& 
                                                     static_cast<int>(format), options.deflection, options.facePoints));
     if (auto kept = cache.find(key)) {
       if (const auto part = partFromBytes(std::move(*kept))) {
-        auto solid = solidOf(*part, format, file, options,
+        auto solid = solidOf(*part, format, file, watch,
                              [&] { return exactModel(part->shape, options.deflection, options.stop); });
         // What cannot be used is imported anew, as if nothing had been kept.
-        if (solid || options.stop.stop_requested()) return solid;
+        if (solid || watch.isStopped()) return solid;
       }
     }
   }
@@ -84,9 +91,11 @@ Result<std::unique_ptr<Solid>> import(TransferOrder order, const ImportOptions& 
   // While the shape is made ready.
   std::future<void> keeping;
   if (!key.empty()) {
-    keeping = std::async(std::launch::async, [&cache, key, part = imported->part] { cache.keep(key, toBytes(part)); });
+    keeping = std::async(std::launch::async, [&cache, key, part = imported->part, stop = options.stop] {
+      cache.keep(key, toBytes(part), stop);
+    });
   }
-  auto solid = solidOf(imported->part, format, file, options, [&] { return imported->exact.get(); });
+  auto solid = solidOf(imported->part, format, file, watch, [&] { return imported->exact.get(); });
   if (keeping.valid()) keeping.wait();
   return solid;
 }

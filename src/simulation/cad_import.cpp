@@ -142,6 +142,7 @@ private:
     const auto [word, rest] = firstWord(line);
     if (word == "stage") {
       stage_ = rest;
+      watch_.tell(stage_);
       meshing_ = stage_.starts_with("meshing");
       preparing_ = stage_.starts_with("preparing");
     } else if (word == "begin") {

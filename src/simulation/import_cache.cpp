@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <fstream>
 #include <memory>
 #include <vector>
@@ -20,6 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kDigestSize = 32;
 constexpr const char* kEnding = ".part";
+constexpr std::chrono::minutes kLongestWriting(10);
 
 std::string digest(std::initializer_list<std::string_view> pieces) {
   const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
@@ -57,7 +59,7 @@ std::optional<std::string> ImportCache::find(const std::string& key) const {
   return std::move(*bytes);
 }
 
-void ImportCache::keep(const std::string& key, std::string_view entry) const {
+void ImportCache::keep(const std::string& key, std::string_view entry, const std::stop_token& stop) const {
   if (folder_.empty() || entry.size() > mostBytes_ / 2) return;
   // Not forced onto the disk, which takes long: after a crash its digest tells what is not whole.
   static std::atomic<int> made = 0;
@@ -67,10 +69,15 @@ void ImportCache::keep(const std::string& key, std::string_view entry) const {
   std::ofstream file(making, std::ios::binary);
   const std::string sum = digest({key, entry});
   file.write(sum.data(), static_cast<std::streamsize>(sum.size()));
-  file.write(entry.data(), static_cast<std::streamsize>(entry.size()));
+  constexpr std::size_t kPiece = std::size_t{1} << 20U;
+  for (std::size_t done = 0; done < entry.size() && !stop.stop_requested(); done += kPiece) {
+    const std::string_view piece = entry.substr(done, kPiece);
+    file.write(piece.data(), static_cast<std::streamsize>(piece.size()));
+  }
   file.close();
-  if (file) fs::rename(making, pathOf(key), error);
-  if (!file || error)
+  const bool whole = file && !stop.stop_requested();
+  if (whole) fs::rename(making, pathOf(key), error);
+  if (!whole || error)
     fs::remove(making, error);
   else
     tidy();
@@ -91,6 +98,10 @@ void ImportCache::tidy() const {
     std::error_code gone;
     Entry found{it->path(), it->last_write_time(gone), it->file_size(gone)};
     if (gone) continue;
+    if (it->path().extension() != kEnding && fs::file_time_type::clock::now() - found.used > kLongestWriting) {
+      fs::remove(it->path(), gone);
+      continue;
+    }
     total += found.bytes;
     entries.push_back(std::move(found));
   }

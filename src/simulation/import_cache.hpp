@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 
@@ -21,7 +22,8 @@ public:
 
   /// Keeps an entry and removes those that were not used for the longest time until the
   /// folder has at most the bytes it may have. What cannot be written is not kept: a cache is not a reason to fail.
-  void keep(const std::string& key, std::string_view entry) const;
+  /// A stop leaves nothing of the entry.
+  void keep(const std::string& key, std::string_view entry, const std::stop_token& stop = {}) const;
 
 private:
   std::filesystem::path pathOf(const std::string& key) const;

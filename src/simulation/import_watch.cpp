@@ -11,7 +11,8 @@ ImportWatch::ImportWatch(const std::string& file, const ImportOptions& options)
     : stop_(options.stop), progress_(options.progress), patience_(options.patience), file_(file) {}
 
 void ImportWatch::tell(const std::string& stage) {
-  constexpr std::chrono::duration<double> pause(0.25);
+  // Who has no patience is told everything.
+  const auto pause = std::min(patience_, std::chrono::duration<double>(0.25));
   const auto now = Clock::now();
   if (!progress_ || now - start_ < patience_ || now - lastTold_ < pause) return;
   lastTold_ = now;
