@@ -85,6 +85,13 @@ std::vector<fs::path> DirectoryLibrary::foldersOf(const Program* caller) const {
 }
 
 std::optional<fs::path> DirectoryLibrary::find(std::string_view name, const Program* caller) const {
+  if (!found_) return search(name, caller);
+  const auto [place, isNew] = found_->try_emplace({caller != nullptr ? caller->file() : "", std::string(name)});
+  if (isNew) place->second = search(name, caller);
+  return place->second;
+}
+
+std::optional<fs::path> DirectoryLibrary::search(std::string_view name, const Program* caller) const {
   constexpr std::size_t mostComponents = 64;
   std::vector<std::string> components = componentsOf(name);
   if (components.empty() || components.size() > mostComponents) return std::nullopt;

@@ -2,10 +2,12 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "language/program.hpp"
@@ -38,7 +40,13 @@ public:
   /// The file that `caller` means by `name`.
   std::optional<std::filesystem::path> find(std::string_view name, const Program* caller) const;
 
+  /// What names mean, by the caller's file and the name; nothing: no file.
+  using Found = std::map<std::pair<std::string, std::string>, std::optional<std::filesystem::path>>;
+  /// Looks each name up once, and keeps what it means for whoever else has `found`: runs of the same program.
+  void remember(std::shared_ptr<Found> found) { found_ = std::move(found); }
+
 private:
+  std::optional<std::filesystem::path> search(std::string_view name, const Program* caller) const;
   std::vector<std::filesystem::path> foldersOf(const Program* caller) const;
   bool isWithinReach(const std::filesystem::path& path) const;
 
@@ -46,6 +54,7 @@ private:
   Open open_;
   std::vector<std::filesystem::path> folders_;
   mutable std::optional<std::filesystem::path> root_;  ///< folder of the program that called first
+  std::shared_ptr<Found> found_;
 };
 
 }  // namespace probewright::language

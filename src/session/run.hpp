@@ -65,6 +65,7 @@ struct RunOptions {
   std::vector<std::string> measuringLogs;  ///< SINUMERIK: logs of all measurements; a table if the name ends in .csv
   bool showAllResults = false;             ///< screens of results even where nothing asks for them
   bool trace = false;                      ///< record where the program stands, for a replay
+  bool files = true;                       ///< leave the control's tables and logs in the outcome
   /// Told from time to time how many blocks have been carried out.
   std::function<void(std::uint64_t blocks)> progress;
 };

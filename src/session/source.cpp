@@ -221,7 +221,8 @@ std::shared_ptr<language::Program> programOf(std::string name, std::string text,
   return families.entry(language).fromText(std::move(name), std::move(text));
 }
 
-std::unique_ptr<language::ProgramLibrary> programLibrary(const ControlFamily& family, OnOpen onOpen) {
+std::unique_ptr<language::ProgramLibrary> programLibrary(const ControlFamily& family, OnOpen onOpen,
+                                                         std::shared_ptr<language::DirectoryLibrary::Found> found) {
   const auto open = [&family, onOpen = std::move(onOpen)](
                         const std::filesystem::path& path) -> Result<std::shared_ptr<language::Program>> {
     const Result<std::string> text = readFile(path);
@@ -235,7 +236,9 @@ std::unique_ptr<language::ProgramLibrary> programLibrary(const ControlFamily& fa
     if (onOpen) onOpen(program ? program->get() : nullptr, path);
     return program;
   };
-  return std::make_unique<language::DirectoryLibrary>(family.calledEndings, open);
+  auto library = std::make_unique<language::DirectoryLibrary>(family.calledEndings, open);
+  library->remember(std::move(found));
+  return library;
 }
 
 }  // namespace probewright::session

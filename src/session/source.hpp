@@ -10,6 +10,7 @@
 
 #include "base/diagnostic.hpp"
 #include "control/control_kind.hpp"
+#include "language/directory_library.hpp"
 #include "language/program.hpp"
 #include "session/control_family.hpp"
 
@@ -52,7 +53,10 @@ std::shared_ptr<language::Program> programOf(std::string name, std::string text,
 /// Told each file that a program calls; `program` is null if it cannot be read.
 using OnOpen = std::function<void(language::Program* program, const std::filesystem::path& path)>;
 
-/// Where programs of a control look for others: in the caller's folder. `family` must outlive the library.
-std::unique_ptr<language::ProgramLibrary> programLibrary(const ControlFamily& family, OnOpen onOpen = {});
+/// Where programs of a control look for others: in the caller's folder. `family` must outlive the library. With `found`
+/// each name is looked up once, see DirectoryLibrary::remember.
+std::unique_ptr<language::ProgramLibrary> programLibrary(
+    const ControlFamily& family, OnOpen onOpen = {},
+    std::shared_ptr<language::DirectoryLibrary::Found> found = nullptr);
 
 }  // namespace probewright::session

@@ -168,6 +168,10 @@ Pose readPose(TomlReader& owner) {
   const Vector3 origin(get("x", anyPlace), get("y", anyPlace), get("z", anyPlace));
   const double a = get("a", anyAngle), b = get("b", anyAngle), c = get("c", anyAngle);
   reader->finish();
+  return poseOf(origin, a, b, c);
+}
+
+Pose poseOf(const Vector3& origin, double a, double b, double c) {
   return translation(origin) * rotation(Vector3::UnitZ(), c) * rotation(Vector3::UnitY(), b) *
          rotation(Vector3::UnitX(), a);
 }

@@ -21,6 +21,9 @@ std::optional<Vector2> readVector2(TomlReader& reader, std::string_view key, Num
 /// [pose] of `owner`: x, y, z and the rotation a about X, then b about Y, then c about Z of the table.
 Pose readPose(TomlReader& owner);
 
+/// The pose of these numbers, mm and degrees.
+Pose poseOf(const Vector3& origin, double a, double b, double c);
+
 /// [[feature]] of `owner`; each shape knows its own keys only.
 simulation::SolidRecipe readRecipe(TomlReader& owner);
 

@@ -14,6 +14,7 @@ namespace {
 constexpr double ofTriangles = 0.045;  // mm: how far two drawings may leave the surfaces they stand for, together
 constexpr double aboutDrawings = 0.1;  // mm: a ball about a solid with this more holds its drawing as well
 constexpr double shortestStep = 0.05;  // mm
+constexpr double boxesDo = 5;  // mm beyond the margin: boxes that far apart tell enough, triangles are not asked
 
 /// What carries the tool against what carries the part, or against what lies on the table.
 bool isSpindleAgainstTable(const BodyPair& pair) {
@@ -41,12 +42,15 @@ BodyClearance::BodyClearance(const Truth& truth, Pairs pairs) : scene_(truth), w
     meshes_.push_back(bodyMesh(thing.solid));
 }
 
-/// The distance, or less than it if that is more than `enough`.
-double BodyClearance::gap(const BodyPair& pair, const Pose& firstFromSecond, double enough) const {
+/// The distance, or less than it if that is more than `enough`, or as long as the boxes are well apart.
+double BodyClearance::gap(const BodyPair& pair, const Pose& firstFromSecond, double enough, double margin) const {
   const BodyThing &first = *pair.first, &second = *pair.second;
-  const double byBounds = (firstFromSecond * second.centre - first.centre).norm() - (first.radius + aboutDrawings) -
-                          (second.radius + aboutDrawings);
-  if (byBounds > enough) return byBounds;
+  const double byBalls = (firstFromSecond * second.centre - first.centre).norm() - first.radius - second.radius;
+  if (byBalls - 2 * aboutDrawings > enough) return byBalls - 2 * aboutDrawings;
+  const double byBounds =
+      apartByBounds(first, first.linkFromSolid.inverse() * firstFromSecond * second.linkFromSolid, second) -
+      2 * aboutDrawings;
+  if (byBounds > std::min(enough, margin + boxesDo)) return byBounds;
   const BodyMesh &one = *meshes_[first.index], &other = *meshes_[second.index];
   if (one.num_tris == 0 || other.num_tris == 0) return 1e300;
   const fcl::DistanceRequestd request;
@@ -66,7 +70,7 @@ std::optional<BodyClearance::Near> BodyClearance::nearer(const Motion& motion, c
     const Motion relative = BodyScene::seen(motion, *pair.kinematics);
     for (double fraction = 0;;) {
       const double left = way * (1 - fraction);
-      const double free = gap(pair, relative.tableFromSpindleAt(fraction), margin + left) - margin;
+      const double free = gap(pair, relative.tableFromSpindleAt(fraction), margin + left, margin) - margin;
       if (free <= 0) return Near{pair.second->name, pair.first->name};
       if (free > left || way == 0) break;
       // A gap that small would take steps without end.

@@ -38,7 +38,7 @@ public:
   std::optional<Near> nearer(const Motion& motion, const Margins& margins, const ToolShape& tool) const;
 
 private:
-  double gap(const BodyPair& pair, const Pose& firstFromSecond, double enough) const;
+  double gap(const BodyPair& pair, const Pose& firstFromSecond, double enough, double margin) const;
 
   BodyScene scene_;
   Pairs which_;

@@ -32,18 +32,6 @@ std::optional<double> longestShift(const std::vector<machine::Axis>& axes, const
   return reserve * way;
 }
 
-/// The distance of a point from a box; 0 within.
-double distance(const Vector3& point, const Bounds& box) {
-  return (box.minimum - point).cwiseMax(point - box.maximum).cwiseMax(0).norm();
-}
-
-/// How far two boxes are apart at least: the second one within the smallest box about it that is parallel to the first.
-double boxDistance(const Bounds& first, const Pose& firstFromSecond, const Bounds& second) {
-  const Vector3 centre = firstFromSecond * (0.5 * (second.minimum + second.maximum));
-  const Vector3 reach = 0.5 * (firstFromSecond.linear().cwiseAbs() * (second.maximum - second.minimum));
-  return (first.minimum - centre - reach).cwiseMax(centre - reach - first.maximum).cwiseMax(0).norm();
-}
-
 /// A box about a tool, spindle frame; empty if there is nothing of it.
 Bounds boundsOf(const ToolShape& tool) {
   Bounds box;
@@ -141,14 +129,7 @@ double BodyGuard::gap(const BodyPair& pair, const Pose& firstFromSecond, double 
                       Vector3* normal) {
   const BodyThing &first = *pair.first, &second = *pair.second;
   const Pose between = first.linkFromSolid.inverse() * firstFromSecond * second.linkFromSolid;
-  const Vector3 firstMiddle = 0.5 * (first.bounds.minimum + first.bounds.maximum),
-                secondMiddle = 0.5 * (second.bounds.minimum + second.bounds.maximum);
-  const Pose back = between.inverse();
-  const double byBounds =
-      std::max({(between * secondMiddle - firstMiddle).norm() - first.radius - second.radius,
-                distance(between * secondMiddle, first.bounds) - second.radius,
-                distance(back * firstMiddle, second.bounds) - first.radius,
-                boxDistance(first.bounds, between, second.bounds), boxDistance(second.bounds, back, first.bounds)});
+  const double byBounds = apartByBounds(first, between, second);
   if (byBounds > enough || (byBounds > boxesDo && point == nullptr)) return byBounds;
   const BodyMesh &one = meshOf(first), &other = meshOf(second);
   if (one.num_tris == 0 || other.num_tris == 0) return 1e300;

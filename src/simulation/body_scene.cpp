@@ -13,7 +13,29 @@ namespace {
 
 constexpr double reserve = 1.02;  // of a way: scales of axes, errors of their directions
 
+/// The distance of a point from a box; 0 within.
+double distance(const Vector3& point, const Bounds& box) {
+  return (box.minimum - point).cwiseMax(point - box.maximum).cwiseMax(0).norm();
+}
+
 }  // namespace
+
+double boxDistance(const Bounds& first, const Pose& firstFromSecond, const Bounds& second) {
+  const Vector3 centre = firstFromSecond * (0.5 * (second.minimum + second.maximum));
+  const Vector3 reach = 0.5 * (firstFromSecond.linear().cwiseAbs() * (second.maximum - second.minimum));
+  return (first.minimum - centre - reach).cwiseMax(centre - reach - first.maximum).cwiseMax(0).norm();
+}
+
+double apartByBounds(const BodyThing& first, const Pose& firstFromSecond, const BodyThing& second) {
+  const Vector3 firstMiddle = 0.5 * (first.bounds.minimum + first.bounds.maximum),
+                secondMiddle = 0.5 * (second.bounds.minimum + second.bounds.maximum);
+  const Pose back = firstFromSecond.inverse();
+  return std::max({(firstFromSecond * secondMiddle - firstMiddle).norm() - first.radius - second.radius,
+                   distance(firstFromSecond * secondMiddle, first.bounds) - second.radius,
+                   distance(back * firstMiddle, second.bounds) - first.radius,
+                   boxDistance(first.bounds, firstFromSecond, second.bounds),
+                   boxDistance(second.bounds, back, first.bounds)});
+}
 
 BodyScene::BodyScene(const Truth& truth) : machine_(trueDescription(truth.machine, truth.errors)) {
   errors_.axes = truth.errors.axes;
@@ -51,13 +73,13 @@ void BodyScene::addThing(std::shared_ptr<const Solid> solid, const Link& link, c
   things_.push_back(std::move(thing));
 }
 
-std::unique_ptr<TrueKinematics> BodyScene::kinematicsBetween(const Link& first, const Link& second) const {
+std::shared_ptr<const TrueKinematics> BodyScene::kinematicsBetween(const Link& first, const Link& second) const {
   machine::Between chains = machine::between(machine_, first, second);
   machine::MachineDescription seen;
   seen.axes = machine_.axes;
   seen.tableChain = std::move(chains.first);
   seen.spindleChain = std::move(chains.second);
-  return std::make_unique<TrueKinematics>(seen, errors_);
+  return std::make_shared<const TrueKinematics>(seen, errors_);
 }
 
 void BodyScene::addPairs() {
@@ -66,8 +88,15 @@ void BodyScene::addPairs() {
       const BodyThing &first = things_[k], &second = things_[i];  // bodies come before what lies on the table
       if (!second.isBody || first.link == second.link) continue;
       if (first.ofMachine && second.ofMachine && machine::areNeighbours(first.link, second.link)) continue;
-      pairs_.push_back({&first, &second, kinematicsBetween(first.link, second.link),
-                        machine::between(machine_, first.link, second.link)});
+      const auto alike = std::ranges::find_if(pairs_, [&](const BodyPair& pair) {
+        return pair.first->link == first.link && pair.second->link == second.link;
+      });
+      if (alike != pairs_.end()) {
+        pairs_.push_back({&first, &second, alike->kinematics, alike->between});
+      } else {
+        pairs_.push_back({&first, &second, kinematicsBetween(first.link, second.link),
+                          machine::between(machine_, first.link, second.link)});
+      }
     }
   }
 }

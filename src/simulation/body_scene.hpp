@@ -29,18 +29,24 @@ struct BodyThing {
   double radius = 0;
 };
 
+/// How far two boxes are apart at least: the second one within the smallest box about it that is parallel to the first.
+double boxDistance(const Bounds& first, const Pose& firstFromSecond, const Bounds& second);
+/// How far the solids of two things are apart at least, by balls and boxes about them; the pose leads between their
+/// frames.
+double apartByBounds(const BodyThing& first, const Pose& firstFromSecond, const BodyThing& second);
+
 /// Two things that must not meet; the second is a body.
 struct BodyPair {
   const BodyThing* first = nullptr;
   const BodyThing* second = nullptr;
-  std::unique_ptr<TrueKinematics> kinematics;  ///< "table" and "spindle" of it are the two links
+  std::shared_ptr<const TrueKinematics> kinematics;  ///< "table" and "spindle" of it are the two links
   machine::Between between;
 };
 
 /// The bodies of one link as the tool sees them.
 struct BodyView {
   machine::Link link;
-  std::unique_ptr<TrueKinematics> kinematics;
+  std::shared_ptr<const TrueKinematics> kinematics;
   std::vector<PlacedSolid> solids;
   std::unique_ptr<Surroundings> surroundings;
 };
@@ -68,7 +74,8 @@ private:
                 std::string name, Kind kind);
   void addPairs();
   void addViews();
-  std::unique_ptr<TrueKinematics> kinematicsBetween(const machine::Link& first, const machine::Link& second) const;
+  std::shared_ptr<const TrueKinematics> kinematicsBetween(const machine::Link& first,
+                                                          const machine::Link& second) const;
 
   machine::MachineDescription machine_;
   MachineErrors errors_;  ///< those of single axes that do not depend on their positions

@@ -129,7 +129,9 @@ private:
   std::optional<session::RunOutcome> carryOut(const Script& script, const setup::Setup& setup,
                                               session::PreparedProgram prepared, std::string_view prefix,
                                               Outcome& outcome) const;
-  session::RunOptions runOptions() const;
+  /// Nobody asks for the files of a trial; those of a calibration hand its tables over.
+  enum class Leaves { Results, Files };
+  session::RunOptions runOptions(Leaves leaves) const;
   /// The program with the beliefs of the setup as it is written.
   const session::PreparedProgram& preparedFor(Desk& desk) const;
 
@@ -259,8 +261,9 @@ std::optional<session::RunOutcome> Trials::carryOut(const Script& script, const 
   return std::nullopt;
 }
 
-session::RunOptions Trials::runOptions() const {
+session::RunOptions Trials::runOptions(Leaves leaves) const {
   session::RunOptions options;
+  options.files = leaves == Leaves::Files;
   options.control = control_;
   options.stop = stop_;
   return options;
@@ -268,7 +271,7 @@ session::RunOptions Trials::runOptions() const {
 
 const session::PreparedProgram& Trials::preparedFor(Desk& desk) const {
   if (!desk.program) {
-    desk.program = std::make_unique<ReadProgram>(ReadProgram{runOptions(), {}});
+    desk.program = std::make_unique<ReadProgram>(ReadProgram{runOptions(Leaves::Results), {}});
     desk.program->prepared =
         session::prepareText(program_.name, program_.text, document_.asWritten().beliefs, desk.program->options);
   }
@@ -284,12 +287,12 @@ Outcome Trials::run(const Draw& draw) const {
     carryOut(program_, *setup, preparedFor(desk), "", outcome);
     return outcome;
   }
-  const session::RunOptions options = runOptions();
+  const session::RunOptions options = runOptions(Leaves::Results), withFiles = runOptions(Leaves::Files);
   control::Beliefs beliefs = setup->beliefs;
   if (calibration_) {
-    const auto calibrated =
-        carryOut(*calibration_, *setup, session::prepareText(calibration_->name, calibration_->text, beliefs, options),
-                 "calibration ", outcome);
+    const auto calibrated = carryOut(*calibration_, *setup,
+                                     session::prepareText(calibration_->name, calibration_->text, beliefs, withFiles),
+                                     "calibration ", outcome);
     if (!calibrated) return outcome;
     if (!desk.handOver.take(calibrated->files)) {
       refuse(outcome, "the tables of the calibration cannot be written to " + desk.handOver.folder().string());

@@ -71,16 +71,20 @@ ClampedRun ClampedProgram::judged(const session::RunOutcome& outcome) const {
   return run;
 }
 
+session::PreparedProgram ClampedProgram::prepared(const session::RunOptions& options) const {
+  Read& read = read_.local();
+  auto& program = &options == &traced_ ? read.traced : read.plain;
+  if (!program) program = session::prepareText(script_.name, script_.text, worlds_->asWritten().beliefs, options);
+  return *program;
+}
+
 ClampedRun ClampedProgram::run(std::span<const double> values, std::uint64_t noise) const {
   auto truth = worlds_->truth(values);
   if (!truth) return {false, Reason{truth.error().message, truth.error().place}};
   truth->seed = noise;
   auto machine = worlds_->machine(*std::move(truth));
   if (!machine) return {false, Reason{machine.error().message, {}}};
-  session::RunOptions options = options_;
-  options.trace = false;
-  const session::RunOutcome outcome =
-      session::runText(script_.name, script_.text, worlds_->asWritten().beliefs, **machine, options);
+  const session::RunOutcome outcome = session::run(prepared(options_), **machine);
   ClampedRun run = judged(outcome);
   if (run.cancelled || run.failure) return run;
   if (auto other = otherThanMeant(meant_, (*machine)->path(), (*machine)->truth(), worlds_->sizeVaries()))
@@ -105,9 +109,7 @@ WatchedRun ClampedProgram::watch(std::span<const double> values) const {
     return run;
   }
   WatchedMachine watched(**machine);
-  session::RunOptions options = options_;
-  options.trace = true;
-  run.outcome = session::runText(script_.name, script_.text, worlds_->asWritten().beliefs, watched, options);
+  run.outcome = session::run(prepared(traced_), watched);
   run.end = judged(run.outcome);
   run.steps = watched.steps();
   run.path = (*machine)->path();
@@ -126,9 +128,7 @@ WatchedRun ClampedProgram::replay(const simulation::Truth& truth, const std::vec
     return run;
   }
   WatchedMachine watched(**machine, &plan);
-  session::RunOptions options = options_;
-  options.trace = false;
-  run.outcome = session::runText(script_.name, script_.text, worlds_->asWritten().beliefs, watched, options);
+  run.outcome = session::run(prepared(options_), watched);
   run.end = judged(run.outcome);
   run.steps = watched.steps();
   return run;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -75,7 +77,12 @@ private:
       : script_(std::move(script)), worlds_(std::move(worlds)), stop_(std::move(stop)) {
     options_.control = control;
     options_.stop = stop_;
+    traced_ = options_;
+    traced_.trace = true;
+    options_.files = false;
   }
+  /// The program as this thread has read it: checked once, with the tables that each run begins with.
+  session::PreparedProgram prepared(const session::RunOptions& options) const;
   /// How a run has ended.
   ClampedRun judged(const session::RunOutcome& outcome) const;
   std::optional<Reason> obstacleOfMachine() const;
@@ -83,11 +90,15 @@ private:
   Script script_;
   std::unique_ptr<ClampedWorlds> worlds_;
   std::stop_token stop_;
-  session::RunOptions options_;
+  session::RunOptions options_, traced_;
   std::optional<Reason> failureAsWritten_, obstacle_;
   std::vector<TouchedFace> meant_;
   std::unique_ptr<simulation::BodyClearance> bodies_;
   mutable OtherFaces otherFaces_;
+  struct Read {
+    std::optional<session::PreparedProgram> plain, traced;
+  };
+  mutable tbb::enumerable_thread_specific<Read> read_;
 };
 
 /// The block that was carried out at that time.

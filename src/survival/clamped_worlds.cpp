@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "camera/virtual_camera.hpp"
+#include "setup/shape_keys.hpp"
 
 namespace probewright::survival {
 
@@ -98,6 +99,7 @@ Result<std::unique_ptr<ClampedWorlds>> ClampedWorlds::make(setup::SetupDocument 
   worlds->solids_ = (*built)->truth().solids;
   worlds->bodies_ = (*built)->truth().bodies;
   if (auto explored = worlds->explore(); !explored) return tl::unexpected(std::move(explored.error()));
+  worlds->findPoses();
   return worlds;
 }
 
@@ -180,7 +182,75 @@ Result<setup::Setup> ClampedWorlds::setupOf(std::span<const double> values) cons
   return fail({}, "the setup cannot be like this", {});
 }
 
+Pose ClampedWorlds::poseOf(const Posed& posed, std::span<const double> values) const {
+  std::array<double, 6> numbers = posed.written;
+  for (std::size_t k = 0; k < numbers.size(); ++k)
+    if (posed.tolerance[k]) numbers[k] = values[*posed.tolerance[k]];
+  return setup::poseOf({numbers[0], numbers[1], numbers[2]}, numbers[3], numbers[4], numbers[5]);
+}
+
+void ClampedWorlds::findPoses() {
+  static constexpr std::string_view names = "xyzabc";
+  std::vector<Posed> found;
+  for (std::size_t i = 0; i < tolerances_.size(); ++i) {
+    const std::string& name = tolerances_[i].name();
+    // Poses of tool touch probes and gauges are told in more places than one.
+    const bool ofPart = name.starts_with("part.pose.") || name.starts_with("fixture");
+    const std::size_t number = names.find(name.back());
+    if (!ofPart || number == std::string_view::npos || std::ranges::count(moves_[i], true) != 1) return;
+    const auto solid = static_cast<std::size_t>(std::ranges::find(moves_[i], true) - moves_[i].begin());
+    auto posed = std::ranges::find(found, solid, &Posed::solid);
+    if (posed == found.end()) {
+      Posed whole{solid, {}, {}};
+      for (std::size_t k = 0; k < names.size(); ++k) {
+        const auto path = study::NumberPath::parse(name.substr(0, name.size() - 1) + names[k]);
+        if (!path) return;
+        whole.written[k] = path->numberIn(document_.table()).value_or(0);
+      }
+      posed = found.insert(found.end(), whole);
+    }
+    posed->tolerance[number] = i;
+  }
+  const Box whole = boxOf(tolerances_);
+  for (const std::vector<double>& values : {written(), whole.low, whole.high, whole.middle()}) {
+    const auto setup = setupOf(values);
+    if (!setup) return;
+    for (const Posed& posed : found)
+      if (poseOf(posed, values).matrix() != setup->world.solids[posed.solid].tableFromSolid.matrix()) return;
+  }
+  auto asWritten = truth(written());
+  if (!asWritten) return;
+  posed_ = std::move(found);
+  truthAsWritten_ = *std::move(asWritten);
+}
+
+Result<std::shared_ptr<const simulation::Solid>> ClampedWorlds::resized(std::size_t solid,
+                                                                        const simulation::SolidRecipe& recipe,
+                                                                        std::span<const double> values) const {
+  std::vector<double> sizes;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (material_[i] != 0) sizes.push_back(values[i]);
+  {
+    const std::lock_guard lock(mutex_);
+    for (const Resized& known : resized_)
+      if (known.solid == solid && known.sizes == sizes) return known.shape;
+  }
+  auto built = simulation::buildSolid(recipe, {}, stop_);
+  if (!built) return tl::unexpected(std::move(built.error()));
+  const std::shared_ptr<const simulation::Solid> shape = *std::move(built);
+  const std::lock_guard lock(mutex_);
+  resized_.push_back({solid, std::move(sizes), shape});
+  if (resized_.size() > mostResized) resized_.pop_front();
+  return shape;
+}
+
 Result<Truth> ClampedWorlds::truth(std::span<const double> values) const {
+  if (truthAsWritten_) {
+    Truth truth = *truthAsWritten_;
+    for (const Posed& posed : posed_)
+      truth.solids[posed.solid].tableFromSolid = poseOf(posed, values);
+    return truth;
+  }
   auto setup = setupOf(values);
   if (!setup) return tl::unexpected(std::move(setup.error()));
   const auto& written = asWritten().world.solids;
@@ -190,9 +260,9 @@ Result<Truth> ClampedWorlds::truth(std::span<const double> values) const {
     const simulation::WorldSolid& solid = setup->world.solids[i];
     std::shared_ptr<const simulation::Solid> shape = solids_[i].solid;
     if (sizeVaries_[i] && !sameRecipe(solid.source.recipe, written[i].source.recipe)) {
-      auto resized = simulation::buildSolid(solid.source.recipe, {}, stop_);
-      if (!resized) return tl::unexpected(std::move(resized.error()));
-      shape = *std::move(resized);
+      auto other = resized(i, solid.source.recipe, values);
+      if (!other) return tl::unexpected(std::move(other.error()));
+      shape = *std::move(other);
     }
     truth.solids.push_back({std::move(shape), solid.tableFromSolid, solid.name, solid.role});
   }

@@ -2,7 +2,10 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include <array>
+#include <deque>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -72,6 +75,18 @@ private:
   Result<void> explore();
   Result<setup::Setup> setupOf(std::span<const double> values) const;
   std::vector<double> extreme(const Box& box, bool most) const;
+  /// A solid whose pose varies: where each of its six numbers comes from.
+  struct Posed {
+    std::size_t solid = 0;
+    std::array<double, 6> written{};                      ///< x, y, z, a, b, c
+    std::array<std::optional<std::size_t>, 6> tolerance;  ///< that takes the place of what is written
+  };
+  /// The poses that vary, if nothing else does: then a truth is the one that is written with other poses.
+  void findPoses();
+  /// The solid of this recipe, which is `solid` of the world with sizes of these values.
+  Result<std::shared_ptr<const simulation::Solid>> resized(std::size_t solid, const simulation::SolidRecipe& recipe,
+                                                           std::span<const double> values) const;
+  Pose poseOf(const Posed& posed, std::span<const double> values) const;
 
   setup::SetupDocument document_;
   std::vector<Tolerance> tolerances_;
@@ -83,7 +98,19 @@ private:
   std::vector<double> material_;          ///< by tolerance: +1 if larger is more material, -1 if less, 0: no size
   std::vector<bool> sizeVaries_;
   bool anySizeVaries_ = false;
+  std::vector<Posed> posed_;
+  std::optional<simulation::Truth> truthAsWritten_;  ///< where nothing but the poses of `posed_` varies
   mutable tbb::enumerable_thread_specific<toml::table> tables_;
+
+  /// Solids of sizes that were asked for lately.
+  struct Resized {
+    std::size_t solid = 0;
+    std::vector<double> sizes;
+    std::shared_ptr<const simulation::Solid> shape;
+  };
+  static constexpr std::size_t mostResized = 128;
+  mutable std::mutex mutex_;
+  mutable std::deque<Resized> resized_;
 };
 
 }  // namespace probewright::survival

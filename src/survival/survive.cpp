@@ -17,7 +17,8 @@ namespace {
 constexpr std::size_t batch = 32;        // boxes that are tried at once, whatever the threads
 constexpr double smallest = 1.0 / 1024;  // of a side of the whole box
 constexpr std::size_t mostCorners = 64;
-constexpr double failing = 0.1;                                     // priority of a part whose middle fails
+constexpr double sizes = 32;     // steps of a range of sizes, in which proven parts are checked
+constexpr double failing = 0.1;  // priority of a part whose middle fails
 constexpr std::uint64_t openSamplesFrom = std::uint64_t{1} << 40U;  // numbers of samples drawn where nothing is proven
 constexpr std::uint64_t checksFrom = std::uint64_t{1} << 41U;       // of those drawn in proven parts
 
@@ -53,6 +54,8 @@ private:
   double distance(const Box& box) const;
   double distance(const std::vector<double>& values) const;
   Box scaled(double scale) const;
+  /// The nearest of so many sizes that solids are built of, or the end of the box before it.
+  double stepped(std::size_t side, double value, const Box& box) const;
 
   void runAll(std::vector<Sample>& samples, const char* phase);
   bool keep(const std::vector<Sample>& samples);
@@ -104,6 +107,12 @@ Box Search::scaled(double scale) const {
     box.high[i] = std::min(whole_.high[i], middle + scale * half);
   }
   return box;
+}
+
+double Search::stepped(std::size_t side, double value, const Box& box) const {
+  const double step = (whole_.high[side] - whole_.low[side]) / sizes;
+  const double nearest = whole_.low[side] + step * std::round((value - whole_.low[side]) / step);
+  return std::clamp(nearest, box.low[side], box.high[side]);
 }
 
 void Search::runAll(std::vector<Sample>& samples, const char* phase) {
@@ -383,7 +392,8 @@ bool Search::checkProven() {
       for (std::size_t i = 0; i < sides(); ++i) {
         // On borders a third of the sides is at its lower end, a third at its upper one.
         const double drawn = onBorder ? std::clamp(3 * draw(i) - 1, 0.0, 1.0) : draw(i);
-        values.push_back(box.low[i] + drawn * (box.high[i] - box.low[i]));
+        const double value = box.low[i] + drawn * (box.high[i] - box.low[i]);
+        values.push_back(result_.tolerances[i].kind == NumberKind::Size ? stepped(i, value, box) : value);
       }
       samples.push_back({number, std::move(values), seedOf(number), {}});
     }

@@ -70,16 +70,45 @@ std::string describedTool(const hh::ActiveTool& tool) {
   return tool.name.empty() ? number : number + " " + tool.name;
 }
 
-/// The tables that each run of a program begins with: made of the beliefs when it begins for the first time.
+/// What each run of a program begins with: tables, made of the beliefs when it begins for the first time, and where the
+/// programs are that it calls.
 struct FirstTables {
   std::optional<hh::Tables> tables;
   Diagnostics remarks;
+  std::shared_ptr<language::DirectoryLibrary::Found> called = std::make_shared<language::DirectoryLibrary::Found>();
+  ControlFamily family = heidenhainFamily();
 
   const hh::Tables& of(const RunRequest& request) {
     if (!tables) tables = heidenhainTables(request.beliefs, request.control, remarks);
     return *tables;
   }
 };
+
+/// The tables as they are at the end, and the logs.
+std::map<std::string, std::string> filesOf(const hh::Control& control, const hh::CameraMonitoring* cameraMonitoring,
+                                           control::DialogLanguage language) {
+  std::map<std::string, std::string> files = control.panel.files();
+  encodeLogs(files, textFileEncoding(control.kind(), language));
+  files["TOOL.T"] = control.tables.tools.table().bytes();
+  files["TCHPROBE.TP"] = control.tables.probes.table().bytes();
+  files["PRESET.PR"] = control.tables.presets.table().bytes();
+  for (const auto& [name, table] : control.tables.datums)
+    files[name] = table.table().bytes();
+  for (const auto& [name, table] : control.tables.deflections)
+    files[name] = table.table().bytes();
+  writeKinematics(control, files);
+  if (std::string remanent = remanentParametersText(control.q); !remanent.empty())
+    files[remanentFile] = std::move(remanent);
+  if (cameraMonitoring != nullptr) {
+    for (const auto& point : cameraMonitoring->points)
+      files.merge(monitoringFiles(point));
+  }
+  // Tables that few machines have come out if there is anything in them.
+  for (const auto* table : {&control.tables.turningTools, &control.tables.axisShifts}) {
+    if (*table && !(*table)->table().keys().empty()) files[(*table)->table().name()] = (*table)->table().bytes();
+  }
+  return files;
+}
 
 void run(const RunRequest& request, FolderReading reading, FirstTables& first, machine::Machine& machine,
          HostFiles& host, RunOutcome& outcome) {
@@ -130,8 +159,8 @@ void run(const RunRequest& request, FolderReading reading, FirstTables& first, m
   hostOptions.isInput = [&host](const std::string& name) { return host.isInput(name); };
   execution::klartext::KlartextHost klartext(control, hostOptions);
   execution::din_iso::DinIsoHost isoHost(klartext);
-  const ControlFamily family = heidenhainFamily();
-  const auto library = programLibrary(family, [&](language::Program*, const fs::path& opened) { host.note(opened); });
+  const auto library = programLibrary(
+      first.family, [&](language::Program*, const fs::path& opened) { host.note(opened); }, first.called);
   TraceRecorder trace(control.channel, [&](records::RunTrace::State& state) {
     if (control.tool.called) state.tool = describedTool(control.tool);
     state.preset = std::to_string(control.coordinates.preset.row);
@@ -149,27 +178,7 @@ void run(const RunRequest& request, FolderReading reading, FirstTables& first, m
              control.channel.seconds());
   }
 
-  outcome.files = control.panel.files();
-  encodeLogs(outcome.files, textFileEncoding(request.control, options.language));
-  outcome.files["TOOL.T"] = control.tables.tools.table().bytes();
-  outcome.files["TCHPROBE.TP"] = control.tables.probes.table().bytes();
-  outcome.files["PRESET.PR"] = control.tables.presets.table().bytes();
-  for (const auto& [name, table] : control.tables.datums)
-    outcome.files[name] = table.table().bytes();
-  for (const auto& [name, table] : control.tables.deflections)
-    outcome.files[name] = table.table().bytes();
-  writeKinematics(control, outcome.files);
-  if (std::string remanent = remanentParametersText(control.q); !remanent.empty())
-    outcome.files[remanentFile] = std::move(remanent);
-  if (cameraMonitoring) {
-    for (const auto& point : cameraMonitoring->points)
-      outcome.files.merge(monitoringFiles(point));
-  }
-  // Tables that few machines have come out if there is anything in them.
-  for (const auto* table : {&control.tables.turningTools, &control.tables.axisShifts}) {
-    if (*table && !(*table)->table().keys().empty())
-      outcome.files[(*table)->table().name()] = (*table)->table().bytes();
-  }
+  if (options.files) outcome.files = filesOf(control, cameraMonitoring.get(), options.language);
   outcome.machineFromWorkpiece = control.coordinates.machineFromPreset();
   outcome.ballRadius = control.tool.radius;
   outcome.believedMachine = control.channel.description();

@@ -192,11 +192,14 @@ std::string zeroOffset(int settable) {
   return "G" + std::to_string(settable == 0 ? 500 : settable <= lastTwoDigits ? 53 + settable : 500 + settable);
 }
 
-/// The data that each run of a program begins with: made of the beliefs when it begins for the first time.
+/// What each run of a program begins with: data, made of the beliefs when it begins for the first time, and where the
+/// programs are that it calls.
 struct FirstData {
   std::optional<SinumerikData> data;
   std::map<std::string, std::string> definitions;
   Diagnostics remarks;
+  std::shared_ptr<language::DirectoryLibrary::Found> called = std::make_shared<language::DirectoryLibrary::Found>();
+  ControlFamily family = sinumerikFamily();
 
   void make(const control::Beliefs& beliefs, const execution::sinumerik::GlobalUserData& globalData) {
     if (data) return;
@@ -252,11 +255,11 @@ void run(const RunRequest& request, const execution::sinumerik::GlobalUserData& 
   hostOptions.searchEnds = [&] {
     if (!control.programTest) goOnMoving(machine, control);
   };
-  const ControlFamily family = sinumerikFamily();
-  const auto library = programLibrary(family, [&](language::Program* opened, const fs::path& file) {
+  const auto noteCalled = [&](language::Program* opened, const fs::path& file) {
     if (opened != nullptr) useMacros(*opened, globalData);
     host.note(file);
-  });
+  };
+  const auto library = programLibrary(first.family, noteCalled, first.called);
   hostOptions.fileExists = [&](std::string_view name) { return library->exists(name, program.get()); };
   hostOptions.readFile = [&](std::string_view name) { return textBeside(host, *library, *program, name); };
   execution::sinumerik::SinumerikHost* running = nullptr;
@@ -292,11 +295,13 @@ void run(const RunRequest& request, const execution::sinumerik::GlobalUserData& 
          "15370"});
   }
 
-  outcome.files = control.panel.files();
-  std::erase_if(outcome.files, [](const auto& file) { return file.second.empty(); });  // what DELETE left
-  addDataFiles(outcome, data, control.data);
-  for (const auto& [name, text] : definitions)
-    outcome.files[name] = text;
+  if (options.files) {
+    outcome.files = control.panel.files();
+    std::erase_if(outcome.files, [](const auto& file) { return file.second.empty(); });  // what DELETE left
+    addDataFiles(outcome, data, control.data);
+    for (const auto& [name, text] : definitions)
+      outcome.files[name] = text;
+  }
   const Eigen::Affine3d workpiece = control.machineFromBase() * sin::transform(control.frames.settableFrame);
   outcome.machineFromWorkpiece = Pose(workpiece.matrix());
   outcome.ballRadius = control.tool.radius;
