@@ -35,7 +35,7 @@ SimulatedRun runPrepared(session::PreparedProgram prepared, const Setup& setup, 
   if (!hasErrors(prepared.diagnostics)) {
     simulation::ImportOptions import = options.import;
     import.stop = prepared.options->stop;
-    auto machine = simulation::buildMachine(setup.world, import);
+    auto machine = simulation::buildMachine(setup.world, import, !options.blind);
     if (machine) {
       run.machine = std::move(*machine);
       run.machine->recordPath(options.recordPath);

@@ -44,7 +44,8 @@ PlacedSolid solidOf(const machine::TableBody& table) {
   return {std::move(solid), pose, table.name, SolidRole::Fixture, true};
 }
 
-Result<std::unique_ptr<VirtualMachine>> buildMachine(const World& world, const ImportOptions& import) {
+Result<std::unique_ptr<VirtualMachine>> buildMachine(const World& world, const ImportOptions& import,
+                                                     bool tellTouches) {
   Truth truth = world.truth;
   for (const WorldSolid& entry : world.solids) {
     auto solid = loadSolid(entry.source, import);
@@ -56,6 +57,7 @@ Result<std::unique_ptr<VirtualMachine>> buildMachine(const World& world, const I
   if (!bodies) return tl::unexpected(std::move(bodies.error()));
   truth.bodies = *std::move(bodies);
   auto machine = std::make_unique<VirtualMachine>(std::move(truth));
+  machine->tellTouches(tellTouches);
   if (world.toolInSpindle) {
     const machine::ToolChangeResult result = machine->insertTool({*world.toolInSpindle, {}});
     if (result.end != machine::ToolChangeEnd::Changed) {

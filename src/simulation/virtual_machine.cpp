@@ -181,6 +181,7 @@ std::string VirtualMachine::toolName() const {
 }
 
 std::string VirtualMachine::describe(const Touch& touch) const {
+  if (!tellsTouches_) return touch.shaft ? ranIntoSomething : "the stylus has touched something";
   const PlacedSolid& solid = truth_.solids[touch.solid];
   const char* part = touch.shaft ? partOf(touch) : "stylus tip";
   const std::string tool = toolName();
@@ -264,8 +265,12 @@ std::optional<MoveResult> VirtualMachine::refusal(Feed feed, const AxisPositions
   return std::nullopt;
 }
 
+std::string VirtualMachine::toolSignal() const {
+  return tellsTouches_ ? describe(*toolContact_) : "the tool has touched the tool touch probe";
+}
+
 std::string VirtualMachine::stillDeflected() const {
-  return "the stylus is still deflected: " + describe(deflection_ ? *deflection_ : *toolContact_);
+  return "the stylus is still deflected: " + (deflection_ ? describe(*deflection_) : toolSignal());
 }
 
 void VirtualMachine::standAt(const Motion& motion, double fraction, PathKind kind) {

@@ -101,6 +101,10 @@ public:
   /// Puts a tool into the spindle by hand: at once, where the axes stand.
   machine::ToolChangeResult insertTool(const machine::ToolOrder& order);
 
+  /// Switched off, results tell only what a real control would know too: that something touched, not what and where. On
+  /// at the start.
+  void tellTouches(bool on) { tellsTouches_ = on; }
+
   /// What bodies of the machine touch where the axes stand, in words.
   std::optional<std::string> bodyContact() const;
 
@@ -116,6 +120,8 @@ public:
 private:
   static constexpr double mostOvertravel = 0.8;  // ball radii
   static constexpr const char* stoppedText = "the machine was stopped";
+  static constexpr const char* reachedText = "the target was reached without contact";
+  static constexpr const char* ranIntoSomething = "the machine has run into something";
 
   /// The first touch of a motion and how the motion ends because of it, in fractions of its way.
   struct Stop {
@@ -164,6 +170,8 @@ private:
   std::string toolName() const;
   std::optional<double> freeFrom(const Motion& motion) const;
   std::string describe(const Touch& touch) const;
+  /// What the tool touch probe signals, in words, while it does.
+  std::string toolSignal() const;
   const char* partOf(const Touch& touch) const;
   /// The tool that is ordered, null for none; nothing if the magazine does not hold it.
   std::optional<const TrueTool*> findTool(const machine::ToolOrder& order) const;
@@ -210,6 +218,7 @@ private:
   std::normal_distribution<double> gaussian_;
   std::stop_token stop_;
   bool recording_ = true;
+  bool tellsTouches_ = true;
   ContinuousPath continuous_;
   PathRecorder path_;
   std::unique_ptr<machine::Camera> camera_;

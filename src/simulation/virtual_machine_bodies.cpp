@@ -14,6 +14,7 @@ std::optional<BodyHit> VirtualMachine::bodyHit(const Motion& motion, const std::
 }
 
 std::string VirtualMachine::describe(const BodyHit& hit) const {
+  if (!tellsTouches_) return ranIntoSomething;
   std::string what;
   if (!hit.byTool) {
     what = fmt::format("the machine's \"{}\" touched \"{}\"", hit.body, hit.other);
@@ -44,7 +45,8 @@ std::string VirtualMachine::stopAt(const Motion& motion, const BodyHit& hit, Pat
 std::optional<std::string> VirtualMachine::bodyContact() const {
   auto hit = guard_ ? guard_->standing(slides_, clock_) : std::nullopt;
   if (!hit && guard_) hit = guard_->standing(slides_, clock_, shape_);
-  return hit ? std::optional(describe(*hit)) : std::nullopt;
+  if (!hit) return std::nullopt;
+  return tellsTouches_ ? describe(*hit) : "something is touched";
 }
 
 }  // namespace probewright::simulation

@@ -108,7 +108,7 @@ MeasureResult VirtualMachine::measureWithProbe(const MeasureOrder& order) {
   const bool shaftSignals = order.part == machine::TouchWith::Shaft;
   if (!touch) {
     advance(motion, Stop{}, PathKind::Measure);
-    return end(MeasureEnd::NoContact, "the target was reached without contact");
+    return end(MeasureEnd::NoContact, reachedText);
   }
   const bool byShaft = touch->shaft && std::string_view(shape_.shafts[*touch->shaft].part) == shaftName;
   if (byShaft && shaftSignals) touch = preciseShaftTouch(motion, *touch);
@@ -121,7 +121,9 @@ MeasureResult VirtualMachine::measureWithProbe(const MeasureOrder& order) {
     // The stylus leans against the surface without a signal: the way back must free it as after a touch.
     advance(motion, Stop{}, PathKind::Measure);
     if (!byShaft) deflection_ = touch;
-    return end(MeasureEnd::NoContact, "the target was reached before the stylus was deflected enough for a signal");
+    return end(MeasureEnd::NoContact, tellsTouches_
+                                          ? "the target was reached before the stylus was deflected enough for a signal"
+                                          : reachedText);
   }
   advance(motion, stop, PathKind::Measure);
   if (!byShaft) deflection_ = touch;

@@ -59,13 +59,13 @@ std::optional<VirtualMachine::ProbeTouch> VirtualMachine::toolProbeTouch(const M
 /// From the touch to the signal, as of a touch probe.
 MeasureResult VirtualMachine::signalOfTool(const Motion& motion, const ProbeTouch& touched) {
   const TrueToolProbe& probe = truth_.toolProbes[touched.probe];
-  std::string detail = describe(touched.touch);
-  if (!tool_->cutter.teeth.empty()) detail += fmt::format(" with tooth {}", touched.contact.edge + 1);
+  std::string detail = tellsTouches_ ? describe(touched.touch) : std::string();
+  if (tellsTouches_ && !tool_->cutter.teeth.empty()) detail += fmt::format(" with tooth {}", touched.contact.edge + 1);
   const double length = motion.profile.length();
   const double contact = touched.contact.fraction * length;
   const auto broken = [&](std::string why) {
     advance(motion, Stop{touched.touch, std::nullopt, touched.contact.fraction}, PathKind::Measure);
-    return MeasureResult{MeasureEnd::Collision, reading_, detail + why};
+    return MeasureResult{MeasureEnd::Collision, reading_, tellsTouches_ ? detail + why : ranIntoSomething};
   };
   const bool turns = spin_.degreesPerSecond != 0 && !tool_->cutter.teeth.empty();
   if (turns && carrying().rotation == tool_->cutter.cutting)
@@ -80,8 +80,9 @@ MeasureResult VirtualMachine::signalOfTool(const Motion& motion, const ProbeTouc
   if (signal > length) {
     advance(motion, Stop{}, PathKind::Measure);
     toolContact_ = touched.touch;
-    return {MeasureEnd::NoContact, reading_,
-            "the target was reached before the contact was deflected enough for a signal"};
+    return {
+        MeasureEnd::NoContact, reading_,
+        tellsTouches_ ? "the target was reached before the contact was deflected enough for a signal" : reachedText};
   }
   advance(motion, Stop{touched.touch, length > 0 ? signal / length : 0, length > 0 ? stop / length : 0},
           PathKind::Measure);
@@ -103,7 +104,7 @@ MeasureResult VirtualMachine::measureTool(const MeasureOrder& order) {
   if (std::ranges::none_of(truth_.toolProbes, &TrueToolProbe::switchedOn))
     return end(MeasureEnd::NotReady, "the tool touch probe is switched off");
   if (auto refused = refusal(order.feed, order.target)) return refusedMeasurement(*std::move(refused));
-  if (toolContact_) return end(MeasureEnd::DeflectedAtStart, describe(*toolContact_));
+  if (toolContact_) return end(MeasureEnd::DeflectedAtStart, toolSignal());
   if (auto limit = beyondTravel(order.target)) return end(MeasureEnd::AxisLimit, *limit);
   const Motion motion = motionTo(order.target, order.feed);
   std::optional<Touch> obstacleMet;
@@ -128,11 +129,11 @@ MeasureResult VirtualMachine::measureTool(const MeasureOrder& order) {
   }
   if (!touched) {
     advance(motion, Stop{}, PathKind::Measure);
-    return end(MeasureEnd::NoContact, "the target was reached without contact");
+    return end(MeasureEnd::NoContact, reachedText);
   }
   if (!truth_.toolProbes[touched->probe].switchedOn) {
     advance(motion, Stop{touched->touch, std::nullopt, touched->touch.fraction}, PathKind::Measure);
-    return end(MeasureEnd::Collision, describe(touched->touch) + ", which is switched off");
+    return end(MeasureEnd::Collision, describe(touched->touch) + (tellsTouches_ ? ", which is switched off" : ""));
   }
   return signalOfTool(motion, *touched);
 }

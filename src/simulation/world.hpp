@@ -52,7 +52,9 @@ struct World {
   double clearance = 0;                     ///< mm: coming nearer to things is warned of; 0: never
 };
 
-/// Loads the solids and puts the machine together.
-Result<std::unique_ptr<VirtualMachine>> buildMachine(const World& world, const ImportOptions& import = {});
+/// Loads the solids and puts the machine together. `tellTouches`: as VirtualMachine::tellTouches(), from the first tool
+/// on.
+Result<std::unique_ptr<VirtualMachine>> buildMachine(const World& world, const ImportOptions& import = {},
+                                                     bool tellTouches = true);
 
 }  // namespace probewright::simulation
