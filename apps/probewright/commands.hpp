@@ -23,6 +23,8 @@ struct RunArguments {
       machine;  ///< the adapter of a real machine, see adapter::connect; empty: the virtual machine of the setup
   std::filesystem::path machineFile;  ///< instead of the setup's machine; empty: none
   std::filesystem::path out = "probewright-out";
+  std::vector<std::filesystem::path> otherOutputs;  ///< of the runs that belong to this one; see setup::readSetupOn
+  bool preview = false;                             ///< leaves no files
   std::optional<control::ControlKind> control;
   bool strict = false;
   control::OnStop onStop = control::OnStop::Continue;

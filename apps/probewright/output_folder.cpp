@@ -1,6 +1,8 @@
 #include "output_folder.hpp"
 
 #include <openssl/evp.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -10,6 +12,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <vector>
+
+#include "base/writable_folder.hpp"
 
 namespace probewright::app {
 
@@ -160,6 +164,20 @@ Result<void> removeWhat(const fs::path& folder, const std::set<FileIdentity>& in
   return replaceSet(*held, before, {}, goes, {});
 }
 
+/// In a folder where everybody writes, and only the owner of a file may replace it (/tmp), the set of another user
+/// stays.
+Result<void> othersInSticky(const fs::path& folder) {
+  struct stat above {};
+  struct stat list {};
+  const bool theirs = ::geteuid() != 0 && ::stat(folder.c_str(), &above) == 0 && (above.st_mode & S_ISVTX) != 0 &&
+                      above.st_uid != ::geteuid() && ::lstat((folder / listName).c_str(), &list) == 0 &&
+                      list.st_uid != ::geteuid();
+  if (!theirs) return {};
+  return fail({(folder / listName).string(), 0, 0},
+              "this is of a run of another user, who alone may replace its files in this folder",
+              "name another folder with --out");
+}
+
 bool isVerdict(const std::string& name) { return name == "results.json" || name == "report.html"; }
 
 }  // namespace
@@ -171,11 +189,13 @@ std::set<std::string> leftByEarlierRun(const fs::path& folder) {
   return names;
 }
 
-Result<void> tidyOutput(const fs::path& folder, const std::stop_token& stop) {
+Result<void> prepareOutput(const fs::path& folder, const std::stop_token& stop) {
+  if (Result<void> writable = checkWritable(folder); !writable) return writable;
   std::error_code error;
   if (!fs::is_directory(folder, error)) return {};
   const Result<FolderLock> held = lock(folder, stop);
-  return held ? Result<void>() : tl::unexpected(held.error());
+  if (!held) return tl::unexpected(held.error());
+  return othersInSticky(held->folder());
 }
 
 std::optional<Diagnostic> whyNotWritable(const fs::path& folder, const std::string& name) {

@@ -23,8 +23,9 @@ inline constexpr const char* listName = ".probewright.json";
 /// The files of the last run that are still as it left them.
 std::set<std::string> leftByEarlierRun(const std::filesystem::path& folder);
 
-/// Clears up what a run has left there that was killed while it wrote.
-Result<void> tidyOutput(const std::filesystem::path& folder, const std::stop_token& stop);
+/// Before anything is run: fails if a run could not leave its files there, and clears up what a run has left there that
+/// was killed while it wrote. A folder that is missing is not made yet.
+Result<void> prepareOutput(const std::filesystem::path& folder, const std::stop_token& stop);
 
 /// Why a run cannot leave a file of this name there: something of this name is not of an earlier run.
 std::optional<Diagnostic> whyNotWritable(const std::filesystem::path& folder, const std::string& name);

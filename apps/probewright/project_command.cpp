@@ -94,6 +94,9 @@ int project(const ProjectArguments& arguments) {
     std::error_code unknown;
     fs::remove(record, unknown);
   }
+  std::vector<fs::path> folders;
+  for (std::size_t i = 0; i < project->steps.size(); ++i)
+    folders.push_back(arguments.out / folderOf(*project, i));
   int worst = 0;
   std::string summary = fmt::format("{}\n", project->name);
   for (std::size_t i = 0; i < project->steps.size(); ++i) {
@@ -101,8 +104,9 @@ int project(const ProjectArguments& arguments) {
     RunArguments one = arguments.run;
     one.program = step.program;
     one.setup = step.setup;
-    one.out = arguments.out / folderOf(*project, i);
-    if (step.tablesOfPrevious) one.tables = arguments.out / folderOf(*project, i - 1);
+    one.out = folders[i];
+    one.otherOutputs = folders;
+    if (step.tablesOfPrevious) one.tables = folders[i - 1];
     one.append = record;
     if (!one.quiet) put(fmt::format("--- {} of {}: {}\n", i + 1, project->steps.size(), printable(step.name)), stdout);
     const int exit = run(one);

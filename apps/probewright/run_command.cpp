@@ -60,17 +60,18 @@ private:
   std::chrono::steady_clock::time_point next_;
 };
 
-/// Says what cannot be removed of an earlier run, and gives the exit code of a mistake in the input.
-int cameToNothing(const Result<void>& removed) {
-  if (!removed) print({removed.error()});
-  return 2;
-}
-
 /// The files that `paths` name, by what makes them the same.
 void noteIdentities(const std::vector<fs::path>& paths, std::set<FileIdentity>& identities) {
   for (const fs::path& path : paths) {
     if (const auto identity = identityOf(path)) identities.insert(*identity);
   }
+}
+
+/// The same folder by two names, also if it is not there.
+bool areOne(const fs::path& a, const fs::path& b) {
+  std::error_code unknown;
+  return fs::weakly_canonical(fs::absolute(a, unknown), unknown) ==
+         fs::weakly_canonical(fs::absolute(b, unknown), unknown);
 }
 
 Content contentOf(const std::string& text) {
@@ -126,16 +127,51 @@ Result<void> addExports(Output& output, const std::vector<const exchange::Format
   return {};
 }
 
+/// Before anything moves: whether everything that the run is to leave can be written. Gives the Chromium that prints
+/// the report, if one is needed.
+Result<fs::path> prepareFiles(const RunArguments& arguments, const std::stop_token& stop) {
+  fs::path chromium;
+  if (arguments.preview) return chromium;
+  if (const Result<void> ready = prepareOutput(arguments.out, stop); !ready) return tl::unexpected(ready.error());
+  if (!arguments.append.empty()) {
+    if (const Result<void> ready = checkRecord(arguments.append); !ready) return tl::unexpected(ready.error());
+  }
+  std::vector<std::string> left = {"results.json", "report.html"};
+  if (arguments.pdf) {
+    const Result<fs::path> found = findChromium();
+    if (!found) return found;
+    chromium = *found;
+    left.emplace_back(pdfFile);
+  }
+  for (const exchange::Format* format : arguments.exports)
+    left.emplace_back(format->file);
+  for (const std::string& name : left) {
+    if (const auto why = whyNotWritable(arguments.out, name)) return tl::unexpected(*why);
+  }
+  return chromium;
+}
+
 }  // namespace
 
 int run(const RunArguments& arguments) {
   std::set<FileIdentity> inputs;
   noteIdentities({arguments.program, arguments.setup, arguments.machineFile, arguments.answers}, inputs);
   Diagnostics mistakes;
-  std::optional<setup::Setup> setup = setup::readSetupOn(arguments.machineFile, arguments.setup, mistakes);
+  std::optional<setup::Setup> setup =
+      setup::readSetupOn(arguments.machineFile, arguments.setup, mistakes, [&](const fs::path& folder) {
+        return areOne(folder, arguments.out) || std::ranges::any_of(arguments.otherOutputs, [&](const fs::path& other) {
+                 return areOne(folder, other);
+               });
+      });
+  if (arguments.quiet) std::erase_if(mistakes, [](const Diagnostic& each) { return each.severity == Severity::Note; });
   print(mistakes);
+  const auto cameToNothing = [&](const std::function<Result<void>()>& remove) {
+    if (arguments.preview) return 2;
+    if (const Result<void> removed = remove(); !removed) print({removed.error()});
+    return 2;
+  };
   // Which tables the run would have begun from is unknown: those of an earlier run stay.
-  if (!setup) return cameToNothing(removeEarlierVerdict(arguments.out, inputs));
+  if (!setup) return cameToNothing([&] { return removeEarlierVerdict(arguments.out, inputs); });
   noteIdentities(setup->inputs, inputs);
   if (!arguments.tables.empty()) {
     if (!fs::is_directory(arguments.tables)) {
@@ -146,7 +182,13 @@ int run(const RunArguments& arguments) {
     }
     setup->beliefs.tables = arguments.tables;
   }
-  const auto giveUp = [&] { return cameToNothing(removeEarlierRun(arguments.out, setup->beliefs.tables, inputs)); };
+  const auto giveUp = [&] {
+    // What a real machine was not ready for has changed nothing: the tables that it was measured into stay.
+    return cameToNothing([&] {
+      return arguments.machine.empty() ? removeEarlierRun(arguments.out, setup->beliefs.tables, inputs)
+                                       : removeEarlierVerdict(arguments.out, inputs);
+    });
+  };
   if (arguments.seed) setup->world.truth.seed = *arguments.seed;
 
   session::RunOptions options;
@@ -170,7 +212,7 @@ int run(const RunArguments& arguments) {
   options.showAllResults = arguments.screens;
   options.measuringLogs = arguments.measuringLogs;
   options.wallClock = std::time(nullptr);
-  options.trace = true;
+  options.trace = !arguments.preview;
   const Interruption interruption;
   options.stop = interruption.token();
   OperatorTerminal operatorTerminal(options.stop);
@@ -186,28 +228,10 @@ int run(const RunArguments& arguments) {
   machine.clearance = arguments.clearance;
   machine.import.cache = cacheFolder(arguments.cache);
   machine.import.stop = options.stop;
-  if (const Result<void> tidied = tidyOutput(arguments.out, options.stop); !tidied) {
-    print({tidied.error()});
+  const Result<fs::path> chromium = prepareFiles(arguments, options.stop);
+  if (!chromium) {
+    print({chromium.error()});
     return 2;
-  }
-  std::vector<std::string> left = {"results.json", "report.html"};
-  fs::path chromium;
-  if (arguments.pdf) {
-    const Result<fs::path> found = findChromium();
-    if (!found) {
-      print({found.error()});
-      return 2;
-    }
-    chromium = *found;
-    left.emplace_back(pdfFile);
-  }
-  for (const exchange::Format* format : arguments.exports)
-    left.emplace_back(format->file);
-  for (const std::string& name : left) {
-    if (const auto why = whyNotWritable(arguments.out, name)) {
-      print({*why});
-      return 2;
-    }
   }
   if (!arguments.answers.empty()) {
     auto read = readFile(arguments.answers, largestText).and_then([&](const std::string& text) {
@@ -254,6 +278,7 @@ int run(const RunArguments& arguments) {
   }
   print(inLanguage(outcome.result.diagnostics, options.language), encoding);
 
+  if (arguments.preview) return static_cast<int>(outcome.info.exit);
   records::RunInfo info = outcome.info;
   info.version = PROBEWRIGHT_VERSION;
   info.job = jobOf(setup->job, arguments.job);
@@ -270,7 +295,7 @@ int run(const RunArguments& arguments) {
   const Content report = [&](const Sink& sink) { reports::writeReport(sink, outcome.journal, info, ran->scene, page); };
   output.files.emplace_back("report.html", report);
   if (arguments.pdf) {
-    Result<std::string> pdf = reportPdf(chromium, report);
+    Result<std::string> pdf = reportPdf(*chromium, report);
     if (pdf) {
       output.files.emplace_back(pdfFile, [bytes = std::move(*pdf)](const Sink& sink) { sink(bytes); });
     } else {

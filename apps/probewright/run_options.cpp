@@ -96,23 +96,31 @@ Subcommand addRun(CLI::App& app) {
       ->type_name("DIR")
       ->excludes(machine);
   addExport(*run, arguments->exports);
-  run->add_option("--append", arguments->append,
-                  "Also add the measured values to this table of many runs, in CSV; made if it is missing")
-      ->type_name("FILE");
+  CLI::Option* append =
+      run->add_option("--append", arguments->append,
+                      "Also add the measured values to this table of many runs, in CSV; made if it is missing")
+          ->type_name("FILE");
   run->add_option(
          "--tables", arguments->tables,
          "Begin with the control's tables in this folder, such as that of an earlier run, instead of the setup's")
       ->type_name("DIR");
   addJob(*run, arguments->job);
-  run->add_flag("--pdf", arguments->pdf, "Also print the report as report.pdf; Chromium does it");
+  CLI::Option* pdf = run->add_flag("--pdf", arguments->pdf, "Also print the report as report.pdf; Chromium does it");
+  run->add_flag("--preview", arguments->preview,
+                "Leave no files: for a screen that draws what the program does before it runs")
+      ->excludes(pdf)
+      ->excludes(append)
+      ->excludes("--export");
   run->add_flag("--screens", arguments->screens, "Show the result screens of all cycles, also of those that are off");
-  run->add_flag("--blind", arguments->blind,
-                "Say nothing of what only the virtual machine knows: true values, errors, what stands in the way");
+  CLI::Option* blind =
+      run->add_flag("--blind", arguments->blind,
+                    "Say nothing of what only the virtual machine knows: true values, errors, what stands in the way");
   run->add_flag("--clearance", arguments->clearance,
                 "Tell how near the tool came to part, fixtures and table, block by block; takes some time");
   run->add_flag("--uncertainty", arguments->uncertainty,
                 "Give each result the uncertainty that the scatter of the probe makes, to first order (see "
-                "docs/uncertainty.md)");
+                "docs/uncertainty.md)")
+      ->excludes(blind);
   run->add_flag("--quiet", arguments->quiet, "Print nothing but mistakes");
   return {run, [arguments] { return app::run(*arguments); }};
 }

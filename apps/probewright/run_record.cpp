@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/file.hpp"
+#include "base/writable_folder.hpp"
 #include "exchange/formats.hpp"
 
 namespace probewright::app {
@@ -39,13 +40,41 @@ private:
   int descriptor_ = -1;
 };
 
+constexpr const char* another = "give --append the name of a file in another folder";
+
+/// Whether there is a file at the path. Fails if it is something else.
+Result<bool> isThere(const std::filesystem::path& file) {
+  std::error_code unknown;
+  const auto kind = std::filesystem::status(file, unknown);
+  if (!std::filesystem::exists(kind)) return false;
+  if (std::filesystem::is_regular_file(kind)) return true;
+  return fail({file.string()}, "this is not a file that values can be added to", "give --append the name of a file");
+}
+
 }  // namespace
+
+Result<void> checkRecord(const std::filesystem::path& file) {
+  const Result<bool> there = isThere(file);
+  if (!there) return tl::unexpected(there.error());
+  const auto at = [&](Diagnostic mistake) {
+    mistake.place.file = file.string();
+    return mistake;
+  };
+  if (*there) {
+    if (faccessat(AT_FDCWD, file.c_str(), R_OK | W_OK, AT_EACCESS) != 0) return failErrno(file, "add to the record");
+    const auto added = readFile(file).and_then(
+        [](std::string record) { return exchange::recordWith(std::move(record), exchange::Inspection{}); });
+    if (!added) return tl::unexpected(at(added.error()));
+  }
+  return checkWritable(file.has_parent_path() ? file.parent_path() : ".").map_error([](Diagnostic mistake) {
+    mistake.advice = another;
+    return mistake;
+  });
+}
 
 Result<void> appendToRecord(const std::filesystem::path& file, const exchange::Inspection& inspection) {
   std::error_code unknown;
-  const auto kind = std::filesystem::status(file, unknown);
-  if (std::filesystem::exists(kind) && !std::filesystem::is_regular_file(kind))
-    return fail({file.string()}, "this is not a file that values can be added to", "give --append the name of a file");
+  if (const Result<bool> there = isThere(file); !there) return tl::unexpected(there.error());
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), unknown);
   Locked locked;
   if (!locked.lock(file)) return failErrno(file, "add to the record");

@@ -94,8 +94,8 @@ std::optional<Prepared> prepare(const StudyArguments& arguments, bool tidies, co
     prepared.inputs.insert(prepared.inputs.end(), more.begin(), more.end());
   prepared.mark = markOf(prepared.inputs);
   if (tidies) {
-    if (const Result<void> tidied = tidyOutput(arguments.out, interruption.token()); !tidied) {
-      mistakes.push_back(tidied.error());
+    if (const Result<void> ready = prepareOutput(arguments.out, interruption.token()); !ready) {
+      mistakes.push_back(ready.error());
       return std::nullopt;
     }
   }

@@ -64,7 +64,7 @@ int survive(const SurviveArguments& arguments) {
   inputs.insert(inputs.end(), document->asWritten().inputs.begin(), document->asWritten().inputs.end());
 
   const Interruption interruption;
-  if (const Result<void> tidied = tidyOutput(arguments.out, interruption.token()); !tidied) return fail(tidied.error());
+  if (const Result<void> ready = prepareOutput(arguments.out, interruption.token()); !ready) return fail(ready.error());
   for (const char* name : {"survive.json", "survive.html"})
     if (const auto why = whyNotWritable(arguments.out, name)) return fail(*why);
 

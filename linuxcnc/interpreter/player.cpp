@@ -39,10 +39,7 @@ bool Player::start(const std::string& iniFile, const std::string& program, int l
     message_ = "the configuration does not say what the control knows: [PROBEWRIGHT]CONTROL names no setup";
     return false;
   }
-  // A preview leaves nothing behind.
-  const std::string out =
-      Mill::moves() ? inFolder(key("OUT").empty() ? "probewright-out" : key("OUT"))
-                    : (fs::temp_directory_path() / ("probewright-preview-" + std::to_string(getuid()))).string();
+  const std::string out = inFolder(key("OUT").empty() ? "probewright-out" : key("OUT"));
   const char* named = std::getenv("PROBEWRIGHT");
   const std::string otherwise = named != nullptr ? named : "probewright";
   std::vector<std::string> words = {key("PROGRAM").empty() ? otherwise : key("PROGRAM"),
@@ -55,7 +52,11 @@ bool Player::start(const std::string& iniFile, const std::string& program, int l
                                     "--quiet",
                                     "--out",
                                     out};
-  if (Mill::moves()) words.insert(words.end(), {"--on-stop", "ask"});
+  if (Mill::moves()) {
+    words.insert(words.end(), {"--on-stop", "ask"});
+  } else {
+    words.emplace_back("--preview");
+  }
   const char* screen = std::getenv("DISPLAY");
   const bool windows = Mill::moves() && screen != nullptr && *screen != '\0' && key("DIALOGS") != "0";
   windowProgram_ = windows ? fs::path(words.front()).replace_filename("probewright-dialog").string() : "";

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "base/file.hpp"
+#include "base/writable_folder.hpp"
 
 namespace probewright {
 
@@ -396,16 +397,13 @@ FolderLock::~FolderLock() {
 
 Result<FolderLock> FolderLock::take(const fs::path& path, const std::function<void()>& onWait,
                                     const std::function<bool(const fs::path&)>& isOurs, const std::stop_token& stop) {
+  if (Result<void> writable = checkWritable(path); !writable) return tl::unexpected(std::move(writable.error()));
   std::error_code error;
-  if (!path.empty()) fs::create_directories(path, error);
+  fs::create_directories(path, error);
   const fs::path folder = error ? fs::path() : fs::canonical(path, error);
-  if (path.empty() || error || !fs::is_directory(folder, error)) {
-    const bool leadsNowhere = fs::is_symlink(path, error) && !fs::exists(path, error);
-    const std::string reason = path.empty()   ? "its name is empty"
-                               : leadsNowhere ? "its name is a symbolic link that leads nowhere"
-                               : error        ? error.message()
-                                              : "a file has its name";
-    return fail({path.string(), 0, 0}, "the output folder cannot be made: " + reason, "name another folder with --out");
+  if (error) {
+    return fail({path.string(), 0, 0}, "this folder cannot be made: " + error.message(),
+                "name another folder with --out");
   }
   for (bool told = false;;) {
     const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);

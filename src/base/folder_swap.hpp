@@ -20,8 +20,8 @@ namespace probewright {
 class FolderLock {
 public:
   /// Makes the folder if it is missing, waits until no other run works on it and, if a run was killed at it, clears
-  /// up: afterwards the folder holds the set before or the one after. `onWait` is told if there is a wait. `isOurs`:
-  /// whether a file in a folder belongs to the set.
+  /// up: afterwards the folder holds the set before or the one after. Fails as checkWritable() does. `onWait` is told
+  /// if there is a wait. `isOurs`: whether a file in a folder belongs to the set.
   static Result<FolderLock> take(const std::filesystem::path& folder, const std::function<void()>& onWait,
                                  const std::function<bool(const std::filesystem::path& file)>& isOurs,
                                  const std::stop_token& stop = {});

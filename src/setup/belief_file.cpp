@@ -30,22 +30,40 @@ std::optional<int> zeroOffsetIndex(std::string_view name) {
 
 }  // namespace
 
-void BeliefReader::readControl() {
+void BeliefReader::readControl(const MayBeMissing& mayBeMissing) {
   auto reader = root_.table("control");
   if (!reader) return;
   const std::vector<std::string> names = families_.controlNames();
   if (auto type = reader->choice("type", names)) beliefs_.control = families_.controlNamed(names[*type]);
-  if (auto tables = reader->text("tables")) {
-    const std::filesystem::path path(*tables);
-    beliefs_.tables = path.is_absolute() ? path : folder_ / path;
-    std::error_code ignored;
-    if (!std::filesystem::is_directory(beliefs_.tables, ignored)) {
-      reader->report("tables", fmt::format("there is no folder \"{}\"", beliefs_.tables.string()),
-                     "Name the folder that holds the control's table files, relative to this file");
-    }
-  }
+  readTables(*reader, mayBeMissing);
   readKinematics(*reader);
   reader->finish();
+}
+
+void BeliefReader::readTables(TomlReader& control, const MayBeMissing& mayBeMissing) {
+  namespace fs = std::filesystem;
+  const auto tables = control.text("tables");
+  if (!tables) return;
+  const fs::path path(*tables);
+  beliefs_.tables = path.is_absolute() ? path : folder_ / path;
+  std::error_code ignored;
+  if (fs::is_directory(beliefs_.tables, ignored)) return;
+  const bool isAbsent = !fs::exists(fs::symlink_status(beliefs_.tables, ignored));
+  if (isAbsent && mayBeMissing && mayBeMissing(beliefs_.tables)) {
+    control.diagnostics().push_back(
+        {Severity::Note,
+         control.placeOf("tables"),
+         fmt::format("there is no folder \"{}\" yet: the control begins without tables, and the run leaves them there",
+                     beliefs_.tables.string()),
+         {},
+         {},
+         {}});
+    beliefs_.tables.clear();
+    return;
+  }
+  control.report("tables", fmt::format("there is no folder \"{}\"", beliefs_.tables.string()),
+                 "Name the folder that holds the control's table files, relative to this file. Only a folder that the "
+                 "run itself is to make, that of --out, may be missing");
 }
 
 /// [control.kinematics.C]: where the control believes the axis of rotation of C.

@@ -7,6 +7,7 @@
 #include "control/beliefs.hpp"
 #include "machine/description.hpp"
 #include "session/control_family.hpp"
+#include "setup/setup_on_machine.hpp"
 
 /// The believed half of a setup file.
 namespace probewright::setup {
@@ -19,13 +20,14 @@ public:
                control::Beliefs& beliefs, const session::ControlFamilies& families)
       : root_(root), folder_(std::move(folder)), machine_(machine), beliefs_(beliefs), families_(families) {}
 
-  void readControl();
+  void readControl(const MayBeMissing& mayBeMissing);
   /// [[preset]] and [[zero_offset]].
   void readFrames();
   void readParameters();
   void readAnswers();
 
 private:
+  void readTables(TomlReader& control, const MayBeMissing& mayBeMissing);
   void readKinematics(TomlReader& control);
   void readFrame(TomlReader& reader, control::BelievedFrame frame, std::vector<control::BelievedFrame>& frames,
                  const char* idKey);

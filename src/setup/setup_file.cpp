@@ -27,7 +27,7 @@ records::Job readJob(TomlReader& root) {
 
 std::optional<Setup> setupOf(const toml::table& table, const std::string& file, const std::filesystem::path& machine,
                              const MachineRead* known, Diagnostics& diagnostics,
-                             const session::ControlFamilies& families) {
+                             const session::ControlFamilies& families, const MayBeMissing& mayBeMissing = {}) {
   const auto errors = [&] { return std::ranges::count(diagnostics, Severity::Error, &Diagnostic::severity); };
   const auto before = errors();
   TomlReader root(table, "", file, diagnostics);
@@ -38,7 +38,7 @@ std::optional<Setup> setupOf(const toml::table& table, const std::string& file, 
   WorldReader world(root, folder, setup.world, setup.inputs);
   BeliefReader beliefs(root, folder, setup.world.truth.machine, setup.beliefs, families);
   world.readMachine(machine, known);
-  beliefs.readControl();
+  beliefs.readControl(mayBeMissing);
   world.readSeed();
   world.readSolids();
   readTools(root, setup.world, setup.beliefs);
@@ -57,9 +57,10 @@ std::optional<Setup> setupOf(const toml::table& table, const std::string& file, 
 }
 
 std::optional<Setup> parse(std::string_view text, const std::string& file, const std::filesystem::path& machine,
-                           Diagnostics& diagnostics, const session::ControlFamilies& families) {
+                           Diagnostics& diagnostics, const session::ControlFamilies& families,
+                           const MayBeMissing& mayBeMissing = {}) {
   const auto table = parseToml(text, file, diagnostics);
-  return table ? setupOf(*table, file, machine, nullptr, diagnostics, families) : std::nullopt;
+  return table ? setupOf(*table, file, machine, nullptr, diagnostics, families, mayBeMissing) : std::nullopt;
 }
 
 }  // namespace
@@ -71,17 +72,18 @@ std::optional<Setup> parseSetup(std::string_view text, const std::string& file, 
 
 std::optional<Setup> readSetup(const std::filesystem::path& path, Diagnostics& diagnostics,
                                const session::ControlFamilies& families) {
-  return readSetupOn({}, path, diagnostics, families);
+  return readSetupOn({}, path, diagnostics, {}, families);
 }
 
 std::optional<Setup> readSetupOn(const std::filesystem::path& machine, const std::filesystem::path& path,
-                                 Diagnostics& diagnostics, const session::ControlFamilies& families) {
+                                 Diagnostics& diagnostics, const MayBeMissing& mayBeMissing,
+                                 const session::ControlFamilies& families) {
   auto text = readFile(path, largestText);
   if (!text) {
     diagnostics.push_back(std::move(text.error()));
     return std::nullopt;
   }
-  return parse(*text, path.string(), machine, diagnostics, families);
+  return parse(*text, path.string(), machine, diagnostics, families, mayBeMissing);
 }
 
 std::optional<SetupDocument> SetupDocument::read(const std::filesystem::path& path, Diagnostics& diagnostics,

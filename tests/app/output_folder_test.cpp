@@ -82,6 +82,76 @@ TEST(OutputFolder, RefusesAFolderItCannotWriteTo) {
   EXPECT_EQ(textOf(file), "kept");
 }
 
+/// All that is in a folder and below it.
+std::vector<std::string> allIn(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    names.push_back(entry.path().lexically_relative(folder).string());
+  std::ranges::sort(names);
+  return names;
+}
+
+/// A machine adapter that leaves a file as soon as somebody starts it.
+std::string notingAdapter(const Folder& folder) {
+  const std::string path = folder.file(
+      "adapter", "#!/bin/sh\ntouch '" + (folder / "started").string() + "'\nexec examples/adapters/plane.py\n");
+  std::filesystem::permissions(path, std::filesystem::perms(0755));
+  return path;
+}
+
+TEST(OutputFolder, RefusesAFolderItCannotWriteToBeforeAnythingMoves) {
+  namespace fs = std::filesystem;
+  const Folder folder;
+  const std::string path = folder.file("a.h", "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z\n2 L Z-150 R0 FMAX\n3 END PGM A MM\n");
+  const std::string world = folder.file(
+      "s.toml",
+      "[control]\ntype = \"TNC640\"\n[[tool]]\nnumber = 1\nkind = \"probe\"\nlength = 100\nball_radius = 3\n");
+  const std::string adapter = notingAdapter(folder);
+  for (const char* name : {"locked", "above", "above/inside"})
+    fs::create_directory(folder / name);
+  folder.file("locked/mine.txt", "mine");
+  folder.file("file", "kept");
+  for (const char* name : {"locked", "above"})
+    fs::permissions(folder / name, fs::perms(0555));
+  const auto before = allIn(folder / "");
+  const auto run = [&](const std::string& out, std::vector<std::string> more) {
+    std::vector<std::string> words = {"run", path, "--setup", world, "--out", out};
+    words.insert(words.end(), more.begin(), more.end());
+    return probewrightOfAUser(words);
+  };
+  const std::string absolute = (folder / "").string();
+  for (const auto& [out, what] : {std::pair{"locked", "cannot write into this folder: Permission denied"},
+                                  {"above/missing", "Permission denied"},
+                                  {"above/missing/too/far", "Permission denied"},
+                                  {"file", "a file has its name"},
+                                  {"file/out", "Not a directory"},
+                                  {"file/out/deeper", "Not a directory"}}) {
+    for (const std::vector<std::string>& more : {std::vector<std::string>{"--machine", adapter}, {}, {"--blind"}}) {
+      const Answer answer = run(absolute + out, more);
+      EXPECT_EQ(answer.exit, 2) << out;
+      EXPECT_THAT(answer.errors, HasSubstr(what)) << out;
+      EXPECT_THAT(answer.errors, HasSubstr("--out")) << out;
+      EXPECT_EQ(messages(answer.errors), 1U) << answer.errors;
+      EXPECT_EQ(allIn(folder / ""), before) << out;
+    }
+  }
+  // The record of many runs is known as early.
+  for (const char* record : {"above/record.csv", "file", "a.h/record.csv"}) {
+    const Answer answer = run(absolute + "out", {"--machine", adapter, "--append", absolute + record});
+    EXPECT_EQ(answer.exit, 2) << record;
+    EXPECT_THAT(answer.errors, HasSubstr("--append")) << record;
+    EXPECT_EQ(allIn(folder / ""), before) << record;
+  }
+  // What can be written is: folders that are missing are made, and inside of a folder that nobody else can change.
+  for (const char* out : {"above/inside", "new/and/deeper"}) {
+    const Answer answer = run(absolute + out, {"--machine", adapter});
+    EXPECT_EQ(answer.exit, 0) << answer.errors;
+    EXPECT_TRUE(fs::exists(folder / out / "results.json")) << out;
+    EXPECT_TRUE(fs::remove(folder / "started")) << "the machine";
+  }
+  EXPECT_EQ(namesIn(folder / "above"), std::vector<std::string>{"inside"});
+}
+
 TEST(OutputFolder, LeavesNothingOfAnEarlierRun) {
   const Folder folder;
   const std::string world = folder.file("block.toml", blockSetup());
@@ -107,11 +177,55 @@ TEST(OutputFolder, KeepsTheTablesItBeginsFromWhenAProgramIsWrong) {
   const std::string first = folder.file("first.toml", blockSetup());
   const std::string out = (folder / "out").string();
   ASSERT_EQ(probewright({"run", folder.file("a.h", loggedProgram), "--setup", first, "--out", out}).exit, 0);
-  const std::string next = folder.file("next.toml", "tables = \"out\"\n" + blockSetup());
+  std::string next = blockSetup();
+  next.insert(next.find("[part]"), "tables = \"out\"\n");
   const std::string wrong = folder.file("b.h", "0 BEGIN PGM B MM\n1 FOO\n2 END PGM B MM\n");
-  ASSERT_EQ(probewright({"run", wrong, "--setup", next, "--out", out}).exit, 2);
+  const Answer answer = probewright({"run", wrong, "--setup", folder.file("next.toml", next), "--out", out});
+  ASSERT_EQ(answer.exit, 2);
+  EXPECT_THAT(answer.errors, HasSubstr("b.h:2"));
   EXPECT_THAT(namesIn(folder / "out"), IsSupersetOf({"PRESET.PR", "TOOL.T"}));
   EXPECT_THAT(namesIn(folder / "out"), Not(::testing::Contains("results.json")));
+}
+
+/// The first of the runs that each begin with what the one before has left.
+TEST(OutputFolder, MayBeMissingAsTheTablesOfTheRunThatMakesIt) {
+  const Folder folder;
+  const std::string out = (folder / "deep/out").string();
+  const auto setupWith = [&](const std::string& name, const std::string& tables) {
+    std::string text = blockSetup();
+    text.insert(text.find("[part]"), "tables = \"" + tables + "\"\n");
+    return folder.file(name, text);
+  };
+  const std::string own = setupWith("own.toml", "deep/../deep/out"), typo = setupWith("typo.toml", "deep/uot");
+  const std::string path =
+      folder.file("a.h", "0 BEGIN PGM A MM\n1 FN 17: SYSWRITE ID 503 NR5 IDX1 = +7.25\n2 END PGM A MM\n");
+  // A preview leaves nothing, not even the folder.
+  const Answer preview = probewright({"run", path, "--setup", own, "--out", out, "--preview"});
+  EXPECT_EQ(preview.exit, 0) << preview.errors;
+  EXPECT_EQ(namesIn(folder / ""), (std::vector<std::string>{"a.h", "own.toml", "typo.toml"}));
+
+  const Answer first = probewright({"run", path, "--setup", own, "--out", out});
+  EXPECT_EQ(first.exit, 0) << first.errors;
+  EXPECT_THAT(first.errors, ::testing::ContainsRegex("own.toml:4:.* note: there is no folder .*deep/out\" yet"));
+  const std::string tables = textOf(folder / "deep/out/PRESET.PR");
+  EXPECT_FALSE(tables.empty());
+  const Answer second = probewright({"run", path, "--setup", own, "--out", out});
+  EXPECT_EQ(second.exit, 0) << second.errors;
+  EXPECT_EQ(second.errors, "");
+  // A preview of a later run begins with the tables and leaves them alone, as it does with everything else.
+  const auto before = allIn(folder / "");
+  folder.file("wrong.h", "0 BEGIN PGM B MM\n1 FOO\n2 END PGM B MM\n");
+  EXPECT_EQ(probewright({"run", (folder / "wrong.h").string(), "--setup", own, "--out", out, "--preview"}).exit, 2);
+  std::filesystem::remove(folder / "wrong.h");
+  EXPECT_EQ(allIn(folder / ""), before);
+
+  for (const auto& [world, elsewhere] :
+       {std::pair{typo, out}, {typo, (folder / "deep").string()}, {own, (folder / "other").string()}}) {
+    std::filesystem::remove_all(folder / "deep");
+    const Answer answer = probewright({"run", path, "--setup", world, "--out", elsewhere});
+    EXPECT_EQ(answer.exit, 2) << elsewhere;
+    EXPECT_THAT(answer.errors, HasSubstr("error: there is no folder"));
+  }
 }
 
 TEST(OutputFolder, KeepsWhatAListNamesThatCameFromElsewhere) {

@@ -2,6 +2,8 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <linux/capability.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -21,9 +23,14 @@ double seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-}  // namespace
+/// What lets root pass permissions is not there after the next exec.
+void becomeAUser() {
+  if (geteuid() != 0) return;
+  for (const int privilege : {CAP_DAC_OVERRIDE, CAP_DAC_READ_SEARCH, CAP_FOWNER})
+    if (prctl(PR_CAPBSET_DROP, privilege) != 0) _exit(126);
+}
 
-Answer probewright(const std::vector<std::string>& words, const std::string& elsewhere) {
+Answer runProgram(const std::vector<std::string>& words, const std::string& elsewhere, bool ofAUser) {
   const Folder folder;
   const std::string output = elsewhere.empty() ? (folder / "output").string() : elsewhere;
   const std::string errors = (folder / "errors").string();
@@ -42,6 +49,7 @@ Answer probewright(const std::vector<std::string>& words, const std::string& els
     dup2(open(errors.c_str(), flags, 0600), STDERR_FILENO);
     setenv("PROBEWRIGHT_CACHE", "off", 1);  // a test leaves nothing in the user's folders
     if (chdir(PROBEWRIGHT_SOURCE_DIR) != 0) _exit(127);
+    if (ofAUser) becomeAUser();
     execv(arguments[0], arguments.data());
     _exit(127);
   }
@@ -59,6 +67,14 @@ Answer probewright(const std::vector<std::string>& words, const std::string& els
   answer.peakMegabytes = static_cast<double>(usage.ru_maxrss) / 1024;
   return answer;
 }
+
+}  // namespace
+
+Answer probewright(const std::vector<std::string>& words, const std::string& output) {
+  return runProgram(words, output, false);
+}
+
+Answer probewrightOfAUser(const std::vector<std::string>& words) { return runProgram(words, {}, true); }
 
 Folder::Folder() {
   std::string pattern = (fs::temp_directory_path() / "probewright-test-XXXXXX").string();

@@ -20,6 +20,9 @@ struct Answer {
 /// Its standard output goes into the answer, or to the file `output`.
 Answer probewright(const std::vector<std::string>& words, const std::string& output = {});
 
+/// The same as somebody whom permissions of files and folders hold, also if root runs the test.
+Answer probewrightOfAUser(const std::vector<std::string>& words);
+
 /// A folder of one test, empty at its start and gone at its end.
 class Folder {
 public:
