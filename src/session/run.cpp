@@ -103,8 +103,14 @@ void prepare(PreparedProgram& prepared, const std::shared_ptr<language::Program>
     std::vector<std::string_view> having;
     for (const ControlFamily& each : familiesOf(options).all())
       if (each.hasProgramModes) having.push_back(each.name);
+    const std::string others = fmt::format("{}", fmt::join(having, " and "));
+    if (options.searchLine)
+      return refuse(fmt::format("a {} program starts at its beginning: a start at line {}, in its middle, is carried "
+                                "out for {} programs only",
+                                family.name, *options.searchLine, others),
+                    "start it from its first block, and let it jump over what is done already");
     return refuse(
-        fmt::format("dry run, program test and block search are modes of {} controls", fmt::join(having, " and ")),
+        fmt::format("dry run and program test are modes of {} controls, this is a {} program", others, family.name),
         "leave them out for this program");
   }
   if (std::ranges::find(family.dialogLanguages, options.language) == family.dialogLanguages.end()) {

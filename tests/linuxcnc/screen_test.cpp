@@ -28,6 +28,7 @@ TEST_F(FromTheScreen, AProgramRunsLineByLineAndStartsWhereItIsTold) {
   session_.write("way.mpf", program);
   session_.write("from.mpf",
                  "N10 G17 G90 G71 G94 G54\nN20 G0 X10 Y10 Z150\nN30 G1 X20 F6000\nN40 X60\nN50 X90 F3000\nM30\n");
+  session_.write("tnc.toml", setup("TNC640", world, 300));
   session_.write("way.h", "0 BEGIN PGM W MM\n1 L X+10 Y+10 Z+150 R0 FMAX\n2 L X+20 R0 FMAX\n3 END PGM W MM\n");
   atTheDesk(std::string(keeps) + words + call(world) + R"(
 begin('way.mpf')
@@ -70,6 +71,7 @@ desk.tell('steps', *places)
 keep('stepped')
 
 desk.mode(linuxcnc.MODE_AUTO)
+shutil.copy('tnc.toml', 'setup.toml')
 desk.command.program_open('way.h')
 desk.taken()
 desk.messages.clear()
@@ -82,6 +84,7 @@ idle()
   EXPECT_THAT(output, HasSubstr("desk: message LOOK HERE"));
   EXPECT_EQ(session_.told(output, "from"), (std::vector<double>{90, 5})) << "no line before the fifth moves";
   EXPECT_EQ(session_.told(output, "steps"), (std::vector<double>{0, 10, 20, 30})) << output;
+  EXPECT_THAT(output, HasSubstr("a HEIDENHAIN program starts at its beginning: a start at line 3, in its middle"));
 }
 
 TEST_F(FromTheScreen, InchesARotaryAxisSpindleAndCoolantPassThrough) {
