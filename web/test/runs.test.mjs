@@ -113,6 +113,26 @@ test("cycles and alarms are marked on the time line, where they were", async () 
   }
 });
 
+test("the time line is as wide as the picture that it belongs to", async () => {
+  for (const width of [1400, 800, 390]) {
+    const { page, problems } = await open("housing", { width, height: width === 390 ? 844 : 900 });
+    const wide = await page.evaluate(() => {
+      const box = (selector) => document.querySelector(selector).getBoundingClientRect();
+      const canvas = document.querySelector(".timeline .marks");
+      const row = Math.round((7 * canvas.width) / box(".timeline .marks").width);
+      const drawn = [...canvas.getContext("2d").getImageData(0, row, canvas.width, 1).data].filter((_, i) => i % 4 === 3).filter((alpha) => alpha > 200).length;
+      return { picture: box(".stage").width, line: box(".timeline").width, slider: box(".timeline input").width, drawn: (drawn * box(".timeline .marks").width) / canvas.width, page: document.documentElement.scrollWidth };
+    });
+    const told = JSON.stringify({ width, ...wide });
+    assert.ok(wide.line >= wide.picture - 20, told);
+    assert.ok(Math.abs(wide.slider - wide.line) < 1, told);
+    assert.ok(wide.drawn >= wide.line - 20, told);
+    assert.ok(wide.page <= width, told);
+    assert.deepEqual(problems, []);
+    await page.close();
+  }
+});
+
 test("two thousand cycles are a page like any other", async () => {
   assert.ok(statSync(join(runs, "many", "report.html")).size < 10e6);
   const { page, problems } = await open("many");
