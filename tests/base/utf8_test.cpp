@@ -46,7 +46,10 @@ TEST(Utf8, AgreesWithIcuOnRandomBytes) {
     std::size_t characters = 0;
     for (std::int32_t at = 0; at < static_cast<std::int32_t>(text.size()); ++characters) {
       UChar32 character = 0;
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"  // within ICU's macro
       U8_NEXT(text.data(), at, static_cast<std::int32_t>(text.size()), character);
+#pragma GCC diagnostic pop
       good = good && character >= 0;
     }
     ASSERT_EQ(isUtf8(text), good) << ::testing::PrintToString(text);
