@@ -247,8 +247,8 @@ std::string codeComplaint(const Parameter& parameter, const Argument& argument) 
   const auto value = static_cast<std::int64_t>(argument.number);
   std::array<bool, 8> listed = {};
   for (const CodeDigit& digit : parameter.digits) {
-    for (int i = 0; i < digit.width; ++i)
-      listed.at(static_cast<std::size_t>(digit.place - 1 + i)) = true;
+    for (int place = digit.place; place < digit.place + digit.width; ++place)
+      listed.at(static_cast<std::size_t>(place) - 1) = true;
     const int found = digitOf(value, digit);
     if (digit.choices.empty() ? found <= digit.most
                               : std::ranges::find(digit.choices, found, &Choice::value) != digit.choices.end()) {
