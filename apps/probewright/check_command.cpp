@@ -19,11 +19,12 @@ namespace probewright::app {
 namespace {
 
 constexpr const char* kStandardInput = "/dev/stdin";
+constexpr const char* kNameOfStandardInput = "standard input";
 
 /// Messages about what was piped in name it so that nobody looks for a file.
 void nameStandardInput(Diagnostics& found) {
   for (Diagnostic& each : found) {
-    if (each.place.file == kStandardInput) each.place.file = "standard input";
+    if (each.place.file == kStandardInput) each.place.file = kNameOfStandardInput;
   }
 }
 
@@ -47,10 +48,14 @@ int checkOnce(const CheckArguments& arguments) {
     std::string text;
     Diagnostics found = session::checkProgram(piped ? std::filesystem::path(kStandardInput) : path, arguments.control,
                                               arguments.skipLevels, &text, setup ? &setup->beliefs : nullptr);
-    if (piped) nameStandardInput(found);
-    tell(found, language::detectEncoding(text));
+    const language::Encoding encoding = language::detectEncoding(text);
+    if (piped) {
+      nameStandardInput(found);
+      document.know(kNameOfStandardInput, text);
+    }
+    tell(found, encoding);
     if (found.empty() && asText) {
-      const std::string name = piped ? "standard input" : path.string();
+      const std::string name = piped ? kNameOfStandardInput : path.string();
       std::fputs(printable(fmt::format("{}: no mistakes found\n", name)).c_str(), stdout);
     }
   }

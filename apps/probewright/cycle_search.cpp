@@ -38,22 +38,23 @@ std::string plain(std::string_view text) {
 /// How words begin, and what the catalogue says for it. Several mean any of them.
 struct Meaning {
   std::array<std::string_view, 3> catalogue;
-  std::array<std::string_view, 14> stems;
+  std::array<std::string_view, 20> stems;
 };
 
 constexpr Meaning meanings[] = {
     {{"hole", "inside circle", "ring"},
-     {"bore", "bohrung", "otvor", "otverst", "отверст", "hal", "hål", "odwiert", "otwor", "otwór", "孔"}},
+     {"bore", "bohrung", "otvor", "otverst", "отверст", "hal", "hål", "odwiert", "otwor", "otwór", "孔", "öffnung",
+      "oeffnung", "löcher", "loecher", "halet", "borrhal"}},
     {{"stud", "spigot", "circle outside"},
      {"boss", "pin", "island", "shaft", "zapfen", "welle", "остров", "цапф", "вал", "tapp", "czop", "凸台", "圆柱"}},
     {{"preset", "zero offset"},
-     {"datum", "origin", "bezugspunkt", "nullpunkt", "привязк", "ноль", "utgangspunkt", "nollpunkt", "baz", "odniesien",
-      "原点", "零点"}},
+     {"datum", "origin", "bezugspunkt", "nullpunkt", "привязк", "ноль", "utgangspunkt", "nollpunkt", "baza", "bazy",
+      "odniesien", "原点", "零点"}},
     {{"edge"}, {"side", "kante", "кромк", "kant", "krawed", "边"}},
-    {{"corner"}, {"ecke", "угол", "угла", "horn", "naroz", "角"}},
+    {{"corner"}, {"ecke", "угол", "угл", "horn", "naroz", "角"}},
     {{"ball", "sphere"}, {"sphere", "kugel", "шар", "сфер", "kula", "kulk", "球"}},
     {{"ridge", "rib", "web"}, {"web", "steg", "перемычк", "ребр", "kam", "mostek", "zebr", "凸脊", "筋"}},
-    {{"slot", "groove"}, {"nut", "паз", "канавк", "spar", "rowek", "槽"}},
+    {{"slot", "groove"}, {"nut", "nuten", "паз", "канавк", "spar", "rowek", "槽"}},
     {{"misalignment", "rotation", "angle"},
      {"skew", "align", "schieflage", "ausricht", "наклон", "выравн", "перекос", "snedstall", "ukos", "wyrown", "不对正",
       "找正"}},
@@ -61,7 +62,7 @@ constexpr Meaning meanings[] = {
     {{"rectan", "pocket"},
      {"pocket", "tasche", "rechteck", "карман", "прямоуг", "ficka", "rektang", "kiesz", "prostok", "型腔", "矩形"}},
     {{"plane"}, {"ebene", "плоск", "plan", "plaszcz", "平面"}},
-    {{"calibrat"}, {"kalibrier", "калибр", "kalibrer", "kalibrow", "校准"}},
+    {{"calibrat"}, {"kalibrier", "калибр", "kalibrer", "kalibrow", "kalibrac", "校准"}},
     {{"tool"}, {"werkzeug", "инструмент", "verktyg", "narzedz", "刀具"}},
     {{"tool length"}, {"werkzeuglange", "laenge", "длин", "langd", "dlugosc", "长度"}},
     {{"radius"}, {"halbmesser", "радиус", "radie", "promien", "半径"}},

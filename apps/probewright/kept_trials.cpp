@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/file.hpp"
+#include "base/unfinished.hpp"
 #include "hdf5/trial_store.h"
 
 namespace probewright::app {
@@ -23,22 +24,6 @@ template <class Function>
 Function* functionOf(void* module, const char* name) {
   return reinterpret_cast<Function*>(dlsym(module, name));
 }
-
-/// Goes with what was not finished.
-class Unfinished {
-public:
-  explicit Unfinished(fs::path path) : path_(std::move(path)) {}
-  Unfinished(const Unfinished&) = delete;
-  Unfinished& operator=(const Unfinished&) = delete;
-  ~Unfinished() {
-    std::error_code ignored;
-    fs::remove(path_, ignored);
-  }
-  const fs::path& path() const { return path_; }
-
-private:
-  fs::path path_;
-};
 
 bool reachesTheDisk(const fs::path& path) {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -110,10 +95,9 @@ Result<void> KeptTrials::write(study::TrialReader trials, const std::string& mar
   const auto drop = functionOf<decltype(probewright_hdf5_drop)>(module_.get(), "probewright_hdf5_drop");
   if (begin == nullptr || add == nullptr || end == nullptr || drop == nullptr)
     return fail({path_.string(), 0, 0}, "the module for HDF5 is not that of this program", "build both together");
-  std::error_code error;
-  if (path_.has_parent_path()) fs::create_directories(path_.parent_path(), error);
-  const Unfinished neighbour(fs::path(path_).concat(fmt::format(".new-{}", getpid())));
-  fs::remove(neighbour.path(), error);
+  const ScratchFolder beside(path_);
+  if (beside.path().empty()) return failErrno(path_, "write beside this file");
+  const fs::path neighbour = beside.path() / path_.filename();
 
   const study::TrialColumns& columns = trials.columns();
   const std::vector<const char*> sources = pointersTo(columns.sources), results = pointersTo(columns.results);
@@ -123,7 +107,7 @@ Result<void> KeptTrials::write(study::TrialReader trials, const std::string& mar
     return fail({path_.string(), 0, 0}, fmt::format("cannot keep the trials: {}", reason.data()),
                 "free some room, or choose another place with --keep, and go on with --resume");
   };
-  void* store = begin(neighbour.path().c_str(), &heading, reason.data(), reason.size());
+  void* store = begin(neighbour.c_str(), &heading, reason.data(), reason.size());
   if (store == nullptr) return failed();
   std::map<std::string, std::size_t> places;
   for (const std::string& key : columns.results)
@@ -155,8 +139,9 @@ Result<void> KeptTrials::write(study::TrialReader trials, const std::string& mar
   }
   const std::vector<const char*> told = pointersTo(reasons);
   if (end(store, told.data(), told.size(), reason.data(), reason.size()) != 0) return failed();
-  if (!reachesTheDisk(neighbour.path())) return failErrno(path_, "keep the trials");
-  fs::rename(neighbour.path(), path_, error);
+  if (!reachesTheDisk(neighbour)) return failErrno(path_, "keep the trials");
+  std::error_code error;
+  fs::rename(neighbour, path_, error);
   if (error) {
     std::snprintf(reason.data(), reason.size(), "%s", error.message().c_str());
     return failed();

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/file.hpp"
+#include "base/unfinished.hpp"
 
 extern char** environ;
 
@@ -23,25 +24,6 @@ namespace probewright::app {
 namespace fs = std::filesystem;
 
 namespace {
-
-/// A folder that goes with everything in it.
-class TemporaryFolder {
-public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "probewright-pdf-XXXXXX").string();
-    if (mkdtemp(name.data()) != nullptr) path_ = name;
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() {
-    std::error_code error;
-    if (!path_.empty()) fs::remove_all(path_, error);
-  }
-  const fs::path& path() const { return path_; }
-
-private:
-  fs::path path_;
-};
 
 bool isProgram(const fs::path& file) {
   std::error_code error;
@@ -102,7 +84,7 @@ Result<fs::path> findChromium() {
 }
 
 Result<std::string> reportPdf(const fs::path& chromium, const Content& html) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   if (folder.path().empty()) return fail("--pdf: no folder for temporary files could be made", "look at TMPDIR");
   const fs::path page = folder.path() / "report.html", pdf = folder.path() / "report.pdf";
   std::string text;

@@ -10,6 +10,8 @@
 #include <cstring>
 #include <utility>
 
+#include "base/unfinished.hpp"
+
 namespace probewright {
 
 namespace {
@@ -126,23 +128,14 @@ std::optional<FileIdentity> identityOf(const std::filesystem::path& path) {
 
 Result<void> writeFileAtomically(const std::filesystem::path& path, std::string_view bytes) {
   std::error_code error;
-  if (path.has_parent_path()) {
-    std::filesystem::create_directories(path.parent_path(), error);
-    if (error) return fail(SourcePlace{path.string(), 0, 0}, "cannot create the folder: " + error.message());
-  }
   if (std::filesystem::is_directory(path, error)) {
     return fail(SourcePlace{path.string(), 0, 0}, "cannot write this file: a folder has its name");
   }
-  std::string aside = path.string() + ".XXXXXX";
-  const Descriptor file(::mkstemp(aside.data()));
-  if (file.number() < 0) return failErrno(path, "write beside this file");
-  if (writeAll(file.number(), bytes) && ::fchmod(file.number(), 0644) == 0 && ::fsync(file.number()) == 0 &&
-      ::rename(aside.c_str(), path.c_str()) == 0) {
-    return {};
-  }
-  auto failure = failErrno(path, "write this file");
-  ::unlink(aside.c_str());
-  return failure;
+  auto aside = UnfinishedFile::beside(path);
+  if (!aside) return tl::unexpected(aside.error());
+  const int file = aside->descriptor();
+  if (writeAll(file, bytes) && ::fchmod(file, 0644) == 0 && ::fsync(file) == 0 && aside->finish()) return {};
+  return failErrno(path, "write this file");
 }
 
 }  // namespace probewright

@@ -16,7 +16,8 @@ std::string quoted(const std::string& text) {
   return result + '"';
 }
 
-std::string number(const std::optional<double>& value) { return value ? formatShortest(*value) : std::string(); }
+/// Without the sign of a zero, which would make two texts of one number.
+std::string number(const std::optional<double>& value) { return value ? formatShortest(*value + 0.0) : std::string(); }
 
 constexpr std::string_view columns =
     "cycle,name,title,program,line,feature,characteristic,result,unit,nominal,lower limit,upper limit,actual,"
@@ -28,8 +29,7 @@ std::string lineOf(const Row& row, const records::RunInfo& run) {
   return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", row.cycle, quoted(row.cycleName),
                      quoted(row.title), quoted(row.program), row.line, quoted(row.feature), quoted(row.characteristic),
                      quoted(row.result), row.unit, number(row.nominal), number(row.lowerLimit), number(row.upperLimit),
-                     formatShortest(row.actual), number(row.deviation), records::verdictName(row.verdict),
-                     timeOf(row, run));
+                     number(row.actual), number(row.deviation), records::verdictName(row.verdict), timeOf(row, run));
 }
 
 }  // namespace

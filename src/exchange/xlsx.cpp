@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "base/file.hpp"
+#include "base/unfinished.hpp"
 #include "exchange/formats.hpp"
 #include "records/results.hpp"
 
@@ -16,26 +17,6 @@ namespace probewright::exchange {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder of its own below that for temporary files; gone at the end.
-class ScratchFolder {
-public:
-  ScratchFolder() {
-    std::error_code error;
-    std::string name = (fs::temp_directory_path(error) / "probewright-XXXXXX").string();
-    if (!error && mkdtemp(name.data()) != nullptr) path_ = name;
-  }
-  ~ScratchFolder() {
-    std::error_code error;
-    if (!path_.empty()) fs::remove_all(path_, error);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
-private:
-  fs::path path_;
-};
 
 struct Column {
   const char* title;

@@ -2,15 +2,15 @@
 
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <fstream>
+#include <optional>
 #include <utility>
 
 #include "base/file.hpp"
+#include "base/unfinished.hpp"
 #include "camera/virtual_camera.hpp"
 #include "session/run.hpp"
 #include "simulation/virtual_machine.hpp"
@@ -51,32 +51,29 @@ bool sameShape(const simulation::SolidFeature& a, const simulation::SolidFeature
 /// A folder for the tables that a calibration hands over, which goes with the thread's data.
 class HandOver {
 public:
-  HandOver() {
-    static std::atomic<int> count{0};
-    folder_ = fs::temp_directory_path() / fmt::format("probewright-study-{}-{}", getpid(), ++count);
-  }
+  HandOver() = default;
   HandOver(const HandOver&) : HandOver() {}
   HandOver& operator=(const HandOver&) = delete;
-  ~HandOver() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
+  ~HandOver() = default;
   /// Empties the folder and writes the files; false if that fails.
-  bool take(const std::map<std::string, std::string>& files) const {
+  bool take(const std::map<std::string, std::string>& files) {
+    if (!folder_) folder_.emplace();
+    if (folder().empty()) return false;
     std::error_code error;
-    fs::remove_all(folder_, error);
-    fs::create_directories(folder_, error);
+    for (fs::directory_iterator entry(folder(), error), end; !error && entry != end; entry.increment(error))
+      fs::remove_all(entry->path(), error);
     for (const auto& [name, text] : files) {
-      std::ofstream file(folder_ / fs::path(name).filename(), std::ios::binary);
+      std::ofstream file(folder() / fs::path(name).filename(), std::ios::binary);
       file << text;
       if (!file.flush()) return false;
     }
     return !error;
   }
-  const fs::path& folder() const { return folder_; }
+  /// Of what has been taken.
+  const fs::path& folder() const { return folder_->path(); }
 
 private:
-  fs::path folder_;
+  std::optional<ScratchFolder> folder_;
 };
 
 struct Script {
@@ -295,7 +292,7 @@ Outcome Trials::run(const Draw& draw) const {
                                      "calibration ", outcome);
     if (!calibrated) return outcome;
     if (!desk.handOver.take(calibrated->files)) {
-      refuse(outcome, "the tables of the calibration cannot be written to " + desk.handOver.folder().string());
+      refuse(outcome, "the tables of the calibration cannot be written to the folder for temporary files (TMPDIR)");
       return outcome;
     }
     beliefs.tables = desk.handOver.folder();

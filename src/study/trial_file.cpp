@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 
 #include "base/file.hpp"
 #include "base/number_text.hpp"
+#include "base/unfinished.hpp"
 
 namespace probewright::study {
 
@@ -78,16 +80,16 @@ double numberOf(const std::string& cell, bool& whole) {
   return value;
 }
 
+Result<void> add(int file, const fs::path& path, const std::string& text) {
+  return writeAll(file, text) ? Result<void>() : failErrno(path, "add trials to the file");
+}
+
 Result<void> append(const fs::path& path, const std::string& text) {
   const int file = open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
   if (file < 0) return failErrno(path, "add trials to the file");
-  if (!writeAll(file, text)) {
-    auto failed = failErrno(path, "add trials to the file");
-    close(file);
-    return failed;
-  }
+  Result<void> done = add(file, path, text);
   close(file);
-  return {};
+  return done;
 }
 
 }  // namespace
@@ -231,9 +233,13 @@ std::string TrialWriter::rows(std::span<const Draw> draws, std::span<const Outco
 /// The file anew, with the columns that have come.
 Result<void> TrialWriter::rewrite(const TrialColumns& before, const std::string& more) {
   auto reader = TrialReader::open(path_, mark_);
-  if (!reader) return tl::unexpected(reader.error());
-  const fs::path neighbour = fs::path(path_).concat(".new");
-  Result<void> done = writeFileAtomically(neighbour, heading());
+  auto neighbour = UnfinishedFile::beside(path_);
+  if (!reader || !neighbour) {
+    columns_ = before;
+    return tl::unexpected(reader ? neighbour.error() : reader.error());
+  }
+  const int file = neighbour->descriptor();
+  Result<void> done = add(file, path_, heading());
   constexpr std::size_t atOnce = 1000;
   std::vector<Draw> draws;
   std::vector<Outcome> outcomes;
@@ -248,18 +254,11 @@ Result<void> TrialWriter::rewrite(const TrialColumns& before, const std::string&
       outcomes.push_back(std::move(read->outcome));
     }
     any = !draws.empty();
-    if (any) done = append(neighbour, rows(draws, outcomes));
+    if (any) done = add(file, path_, rows(draws, outcomes));
   }
-  if (done) done = append(neighbour, more);
-  std::error_code error;
-  if (done) {
-    fs::rename(neighbour, path_, error);
-    if (error) done = fail({path_.string(), 0, 0}, "cannot write the trials: " + error.message(), "");
-  }
-  if (!done) {
-    columns_ = before;
-    fs::remove(neighbour, error);
-  }
+  if (done) done = add(file, path_, more);
+  if (done && !(::fchmod(file, 0644) == 0 && neighbour->finish())) done = failErrno(path_, "write the trials");
+  if (!done) columns_ = before;
   return done;
 }
 

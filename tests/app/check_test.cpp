@@ -252,7 +252,9 @@ TEST(Cycles, AreFoundByWords) {
   EXPECT_THAT(rows({"Hole"}), Not(HasSubstr("\n420 ")));
   // Words of shops and of other languages, with and without their accents and capitals.
   for (const char* bore :
-       {"bore", "BOHRUNG", "Bohrungen", "отверстие", "Отверстия", "hål", "HAL", "odwiert", "otwór", "孔", "otvor"}) {
+       {"bore",      "BOHRUNG",   "Bohrungen", "отверстие", "Отверстия", "hål",     "HAL",      "odwiert",
+        "otwór",     "孔",        "otvor",     "ÖFFNUNG",   "Öffnung",   "Offnung", "Oeffnung", "Löcher",
+        "ОТВЕРСТИЕ", "отверстий", "HÅL",       "HÅLET",     "OTWÓR",     "otworu",  "OTVOR"}) {
     SCOPED_TRACE(bore);
     EXPECT_THAT(rows({bore}), HasSubstr("\n421 "));
     EXPECT_THAT(rows({bore}), HasSubstr("\n412 "));
@@ -260,6 +262,8 @@ TEST(Cycles, AreFoundByWords) {
     EXPECT_THAT(rows({bore}), Not(HasSubstr("\n417 ")));
   }
   EXPECT_THAT(rows({"boss"}), HasSubstr("\n413 "));
+  for (const char* corner : {"ECKE", "Ecken", "УГОЛ", "углы", "HÖRN", "Horn", "NAROŻE", "naroze", "角"})
+    EXPECT_THAT(rows({corner}), HasSubstr("\n414 ")) << corner;
   EXPECT_THAT(rows({"pocket"}), HasSubstr("\n423 "));
   // All words count: the ring only, not the stud and not the sphere.
   EXPECT_THAT(rows({"kalibrieren", "Ring"}), HasSubstr("\n462 "));

@@ -195,6 +195,49 @@ TEST(DocumentedBlocks, CommandsOnFilesOfTheReaderRunOnExamples) {
   EXPECT_GE(elsewhere, 10);
 }
 
+/// "The same by hand" of projects.md, in a folder with what the project of the cookbook names.
+TEST(DocumentedBlocks, AProjectByHandMeasuresTheSame) {
+  const std::string page = textOf(source / "docs/projects.md");
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(page, found, std::regex("The same by hand[^`]*`probewright ([^`]*)`")));
+  const Folder folder;
+  for (const auto& entry : fs::directory_iterator(source / "examples/cookbook"))
+    fs::copy_file(entry.path(), folder / entry.path().filename().string());
+  const auto run = [&](const std::string& words) {
+    const std::string line = "cd '" + (folder / "").string() + "' && '" PROBEWRIGHT_PROGRAM "' " + words + " > '" +
+                             (folder / "printed").string() + "' 2>&1";
+    return WEXITSTATUS(std::system(line.c_str()));
+  };
+  ASSERT_EQ(run("project plate-project.toml --out out"), 0) << textOf(folder / "printed");
+  fs::rename(folder / "out/2-inspect", folder / "by-project");
+  ASSERT_EQ(run(found[1].str()), 0) << textOf(folder / "printed");
+  const Answer compared =
+      probewright({"compare", (folder / "by-project").string(), (folder / "out/2-inspect").string()});
+  EXPECT_EQ(compared.exit, 0) << compared.output << compared.errors;
+  EXPECT_EQ(textOf(folder / "by-project/TOOL.T"), textOf(folder / "out/2-inspect/TOOL.T"));
+}
+
+/// What truth.md shows of the terminal has the form of what is printed; the numbers are those of other runs.
+TEST(DocumentedBlocks, TruthIsPrintedInTheFormThatIsShown) {
+  const Folder folder;
+  const Answer answer = probewright({"run", "examples/cookbook/set-up.h", "--setup", "examples/cookbook/set-up.toml",
+                                     "--out", (folder / "out").string()});
+  ASSERT_EQ(answer.exit, 0) << answer.errors;
+  int lines = 0;
+  for (const CodeBlock& block : blocksOf("text")) {
+    if (block.page != "truth.md" || block.text.starts_with("  truth ")) continue;
+    std::istringstream stream(block.text);
+    for (std::string line; std::getline(stream, line); ++lines) {
+      line = std::regex_replace(line, std::regex(R"([.()+*\[\]|^$])"), "\\$&");
+      line = std::regex_replace(line, std::regex(R"(\\\.\\\.\\\.)"), "[^\n]*");
+      line = std::regex_replace(line, std::regex(R"((\\\+|-)?[0-9]+(\\\.[0-9]+)?)"), "[-+]?[0-9]+([.][0-9]+)?");
+      line = std::regex_replace(line, std::regex(" +"), " +");
+      EXPECT_TRUE(std::regex_search(answer.output, std::regex("(^|\n)" + line + "(\n|$)"))) << line;
+    }
+  }
+  EXPECT_EQ(lines, 2);
+}
+
 /// The numbers of a page are those that its command prints. Without optimisation they would take minutes.
 TEST(DocumentedBlocks, StudiesPrintWhatIsShown) {
   if (!PROBEWRIGHT_OPTIMIZED) GTEST_SKIP();

@@ -5,10 +5,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <string>
 
 #include "app/program.hpp"
 #include "base/folder_swap.hpp"
@@ -259,6 +262,77 @@ TEST_P(Killed, GoesOnToWriteWhereSomebodyWaits) {
   EXPECT_EQ(found, (Texts{{"A" + tag, tag}, {"both", tag}, {"results.json", tag}, {"mine.txt", "mine"}}));
   EXPECT_TRUE(world.keptTheUsersFile());
   EXPECT_THAT(world.neighbours(), ElementsAre("out"));
+}
+
+/// The last calls of a run that adds its values to a record: nothing but whole runs is in the record, and the next run
+/// leaves nothing beside it.
+TEST(KilledRecord, HoldsWholeRunsAndNothingLiesBesideIt) {
+  if (!PROBEWRIGHT_OPTIMIZED) GTEST_SKIP() << "sanitizers and preloaded libraries do not go together";
+  const Folder folder;
+  const fs::path work = folder / "work", record = work / "record.csv", out = folder / "out", count = folder / "count";
+  const auto run = [&](const std::string& fault) {
+    fs::remove_all(out);
+    const std::string command = fault +
+                                " LD_PRELOAD='" PROBEWRIGHT_FAILING_CALLS "' '" PROBEWRIGHT_PROGRAM
+                                "' run examples/first/plate.h --setup examples/first/plate.toml --out '" +
+                                out.string() + "' --append '" + record.string() + "' --quiet > /dev/null 2>&1";
+    return WEXITSTATUS(std::system(command.c_str()));
+  };
+  const auto linesOf = [&] { return std::ranges::count(textOf(record), '\n'); };
+  ASSERT_EQ(run("FAIL_COUNT='" + count.string() + "'"), 1);
+  const auto once = linesOf();
+  ASSERT_GT(once, 1);
+  const long calls = std::stol(textOf(count));
+  int left = 0;
+  for (long at = calls; at > calls - 6; --at) {
+    fs::remove_all(work);
+    ASSERT_EQ(run("FAIL_AT=" + std::to_string(at)), 128 + SIGKILL);
+    left += fs::exists(work) && namesIn(work).size() > 1 ? 1 : 0;
+    EXPECT_THAT(linesOf(), AnyOf(Eq(0), Eq(once))) << at;
+    ASSERT_EQ(run(""), 1);
+    EXPECT_THAT(namesIn(work), ElementsAre("record.csv")) << at;
+  }
+  EXPECT_GT(left, 2);
+}
+
+/// What a command that was killed has left, a file and a folder, goes with the next one that writes there.
+TEST(KilledCommands, LeaveNothingAfterTheNextOne) {
+  const Folder folder;
+  const fs::path place = folder / "place", temporary = folder / "temporary", out = folder / "out";
+  const auto in = [&](const char* name) { return (place / name).string(); };
+  const std::string run = "run examples/first/plate.h --setup examples/first/plate.toml --out '" + out.string() + "' ";
+  const std::vector<std::string> commands = {
+      run + "--append '" + in("record.csv") + "'",
+      run + "--export xlsx",
+      "run examples/programs/housing.h --setup examples/setups/housing-tnc640.toml --cache '" + place.string() +
+          "' --out '" + out.string() + "'",
+      "convert examples/programs/housing.h '" + in("housing.mpf") + "'",
+      "machine mill3 --out '" + in("machine.html") + "'",
+      "study examples/first/plate.h --setup examples/first/plate.toml --study examples/studies/plate.toml --trials 4 "
+      "--out '" +
+          place.string() + "'",
+  };
+  for (const std::string& command : commands) {
+    SCOPED_TRACE(command);
+    const bool inTemporary = command.ends_with("xlsx");
+    for (const fs::path& each : {place, temporary, out})
+      fs::remove_all(each);
+    fs::create_directories(place);
+    fs::create_directories(temporary);
+    const fs::path where = inTemporary ? temporary : place;
+    fs::create_directory(where / ".a.probewright-unfinished-Abc123");
+    for (const char* name : {".a.probewright-unfinished-Abc123/b", ".b.probewright-unfinished-xyz789"})
+      folder.file((inTemporary ? "temporary/" : "place/") + std::string(name), "left");
+    const std::string line = "TMPDIR='" + temporary.string() + "' '" PROBEWRIGHT_PROGRAM "' " + command + " > '" +
+                             (folder / "printed").string() + "' 2>&1";
+    EXPECT_LE(WEXITSTATUS(std::system(line.c_str())), 1) << textOf(folder / "printed");
+    for (const fs::path& each : {place, temporary})
+      for (const std::string& name : namesIn(each))
+        EXPECT_EQ(name.find("unfinished"), std::string::npos) << name;
+    if (!inTemporary) {
+      EXPECT_NE(namesIn(place), std::vector<std::string>());
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Folders, Killed, ::testing::Bool(),

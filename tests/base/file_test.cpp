@@ -3,14 +3,20 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <limits>
+#include <string>
 #include <thread>
+#include <vector>
 
+#include "base/unfinished.hpp"
 #include "base/utc.hpp"
 
 namespace probewright {
@@ -32,6 +38,101 @@ TEST_F(FileTest, WritesWholeFilesAndLeavesNoNeighbours) {
   ASSERT_TRUE(writeFileAtomically(path, std::string("sec\0ond", 7)));
   EXPECT_EQ(readFile(path).value(), std::string("sec\0ond", 7));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "table"), {}), 1);
+}
+
+std::vector<std::string> namesIn(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    names.push_back(entry.path().filename().string());
+  std::ranges::sort(names);
+  return names;
+}
+
+/// A process that does something and is killed.
+template <class Doing>
+void beKilled(const Doing& doing) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    doing();
+    ::kill(::getpid(), SIGKILL);
+    ::pause();
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFSIGNALED(status));
+}
+
+TEST_F(FileTest, TheNextOneRemovesWhatKilledOnesLeft) {
+  const auto path = folder / "record.csv";
+  const std::string longName(240, 'x');
+  ASSERT_TRUE(writeFileAtomically(path, "first"));
+  beKilled([&] {
+    auto file = UnfinishedFile::beside(path);
+    static_cast<void>(writeAll(file->descriptor(), "sec"));
+    new UnfinishedFile(*UnfinishedFile::beside(folder / longName));
+    const auto* scratch = new ScratchFolder(path);
+    std::ofstream(scratch->path() / "a") << "a";
+    ::kill(::getpid(), SIGKILL);
+    ::pause();
+  });
+  EXPECT_EQ(namesIn(folder).size(), 4U);
+  EXPECT_EQ(readFile(path).value(), "first");
+  ASSERT_TRUE(writeFileAtomically(path, "second"));
+  EXPECT_EQ(namesIn(folder), std::vector<std::string>{"record.csv"});
+  ASSERT_TRUE(writeFileAtomically(folder / longName, "long"));
+  EXPECT_EQ(namesIn(folder).size(), 2U);
+}
+
+TEST_F(FileTest, NobodyRemovesWhatOthersAreMakingOrWhatIsNotOurs) {
+  const std::vector<std::string> foreign = {".record.csv.probewright-unfinished-12345",
+                                            ".record.csv.probewright-unfinished-123-56", "record.csv.backup",
+                                            "record.csv.probewright-unfinished"};
+  for (const std::string& name : foreign)
+    std::ofstream(folder / name) << "mine";
+  {
+    auto file = UnfinishedFile::beside(folder / "record.csv");
+    ASSERT_TRUE(file);
+    const ScratchFolder scratch(folder / "record.csv");
+    std::ofstream(scratch.path() / "a") << "a";
+    const pid_t other = ::fork();
+    if (other == 0) {
+      removeUnfinished(folder);
+      ::_exit(0);
+    }
+    ::waitpid(other, nullptr, 0);
+    EXPECT_EQ(readFile(scratch.path() / "a").value(), "a");
+    ASSERT_TRUE(writeAll(file->descriptor(), "whole"));
+    ASSERT_TRUE(file->finish());
+    EXPECT_EQ(readFile(folder / "record.csv").value(), "whole");
+  }
+  std::vector<std::string> all = foreign;
+  all.emplace_back("record.csv");
+  std::ranges::sort(all);
+  EXPECT_EQ(namesIn(folder), all);
+}
+
+/// What one makes, another one takes for left behind between making and locking: then it is made again.
+TEST_F(FileTest, ManyWriteTheSameFileAtOnce) {
+  const auto path = folder / "shared";
+  std::vector<pid_t> children;
+  for (int i = 0; i < 6; ++i) {
+    children.push_back(::fork());
+    if (children.back() != 0) continue;
+    bool all = true;
+    for (int j = 0; j < 100; ++j) {
+      all = all && writeFileAtomically(path, std::string(1000, static_cast<char>('a' + i)));
+      const ScratchFolder scratch(path);
+      all = all && std::filesystem::is_directory(scratch.path());
+    }
+    ::_exit(all ? 0 : 1);
+  }
+  for (const pid_t child : children) {
+    int status = 1;
+    ::waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+  }
+  EXPECT_EQ(namesIn(folder), std::vector<std::string>{"shared"});
+  EXPECT_EQ(readFile(path).value().size(), 1000U);
 }
 
 TEST_F(FileTest, SaysWhyAFileCannotBeRead) {

@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
+#include <regex>
+
 #include "reader.hpp"
 #include "records/sample_run.hpp"
 
@@ -258,6 +262,33 @@ TEST(Dfq, HasNominalsLimitsAndValues) {
   EXPECT_THAT(dfqRead(job), HasSubstr("Lager <\"40\" & 50>, größer\n"));
   for (const char* key : {"\nK1041 Z-1 <B>\r", "\nK0014/1 00 17\r", "\nK0053/10 4711 & 12\r"})
     EXPECT_THAT(job, HasSubstr(key));
+}
+
+/// A zero has no sign, whatever the computation left, and what is not a number is no value.
+TEST(Formats, HaveNeitherNegativeZerosNorWhatIsNotANumber) {
+  control::Journal all = journal();
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  for (control::CycleRecord& cycle : all.cycles) {
+    for (control::ResultRecord& result : cycle.results) {
+      result.value = result.name == "Q151" ? none : result.name == "Q152" ? -1e-13 : -0.0;
+      result.nominal = result.name == "Q153" ? none : -0.0;
+      result.lowerLimit = -0.0;
+      result.upperLimit = result.name == "Q154" ? std::numeric_limits<double>::infinity() : -0.0;
+    }
+  }
+  const Inspection got = inspectionOf(all, sample::runInfo());
+  EXPECT_GT(got.rows.size(), 5U);
+  EXPECT_TRUE(std::ranges::none_of(got.rows, [](const Row& row) { return row.result == "Q151"; }));
+  const std::regex negativeZero(R"([^0-9A-Za-z.]-0(\.0+)?([^.0-9]|$))"), notANumber(R"(\b(nan|inf|NaN|INF)\b)");
+  for (const Format& format : formats()) {
+    if (format.name == "xlsx") continue;  // a number there is no text
+    const std::string text = format.write(got).value();
+    std::smatch found;
+    EXPECT_FALSE(std::regex_search(text, found, negativeZero)) << format.name << ": " << found.str();
+    EXPECT_FALSE(std::regex_search(text, found, notANumber)) << format.name << ": " << found.str();
+  }
+  const std::string record = recordWith("", got).value();
+  EXPECT_FALSE(std::regex_search(record, negativeZero));
 }
 
 TEST(Formats, AreFoundByName) {

@@ -54,11 +54,10 @@ std::string klartextTemplate(const CycleDefinition& cycle, control::ControlKind 
   std::string text = fmt::format("TCH PROBE {} {}", cycle.number, cycle.title);
   for (const Parameter& parameter : cycle.parameters) {
     if (!parameter.controls.contains(kind)) continue;
-    std::string number = "\"\"";
-    if (parameter.kind != ValueKind::Text) {
-      const double is = firstValue(parameter);
-      number = (is < 0 ? "" : "+") + formatShortest(is);
-    }
+    const FirstValue first = firstValue(cycle, parameter);
+    const std::string number = parameter.kind == ValueKind::Text
+                                   ? '"' + first.text + '"'
+                                   : (first.number < 0 ? "" : "+") + formatShortest(first.number);
     const std::string_view own = conversion::parameterText(cycle.number, static_cast<int>(parameter.address), language);
     text += fmt::format(" ~\n    {}={:<8};{}", parameter.name, number,
                         own.empty() ? upperCase(parameter.meaning.substr(0, parameter.meaning.find_first_of(",;:(")))

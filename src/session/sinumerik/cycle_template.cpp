@@ -6,11 +6,12 @@
 #include "base/number_text.hpp"
 #include "session/first_value.hpp"
 #include "session/sinumerik/family_parts.hpp"
+#include "words/cycle_words.hpp"
 
 namespace probewright::session {
 
 std::string sinumerikTemplate(const cycles::CycleDefinition& cycle, control::ControlKind kind,
-                              control::DialogLanguage) {
+                              control::DialogLanguage language) {
   std::string comments, call;
   std::size_t last = 0;
   const std::size_t count = cycle.parameters.size();
@@ -18,11 +19,12 @@ std::string sinumerikTemplate(const cycles::CycleDefinition& cycle, control::Con
   for (std::size_t i = 0; i < count; ++i) {
     const cycles::Parameter& parameter = cycle.parameters[i];
     if (!parameter.controls.contains(kind)) continue;
-    // Without a way to measure there is no call.
-    const double value = parameter.name == "S_FA" ? 10 : firstValue(parameter);
-    values[i] = parameter.kind == cycles::ValueKind::Text ? "\"\"" : formatShortest(value);
+    const FirstValue first = firstValue(cycle, parameter);
+    values[i] = parameter.kind == cycles::ValueKind::Text ? '"' + first.text + '"' : formatShortest(first.number);
     last = i + 1;
-    comments += fmt::format("; {:<10}= {:<6} {}\n", parameter.name, values[i], parameter.meaning);
+    const std::string meaning = words::ofCatalogue(language, parameter.meaning);
+    comments += fmt::format("; {:<10}= {:<6} {}\n", parameter.name, values[i],
+                            first.isExample ? words::ofCatalogue(language, "{0} (an example)", {meaning}) : meaning);
   }
   for (std::size_t i = 0; i < last; ++i)
     call += (i > 0 ? "," : "") + values[i];
