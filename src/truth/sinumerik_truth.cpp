@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "base/number_text.hpp"
+#include "control/sinumerik/tool_data.hpp"
 #include "truth/family_truth.hpp"
 #include "truth/feeling.hpp"
 
@@ -121,7 +122,9 @@ Reach reach(const CycleRecord* cycle, double way, control::ControlKind) {
   return {path ? "S_FA" : "DFA", path.value_or(way / 2), true};
 }
 
-bool isOfTools(std::string_view table) { return table.starts_with("$TC_DP") || table.starts_with("$SNS_MEA_"); }
+bool isOfTools(std::string_view table) {
+  return control::sinumerik::isToolSize(table) || table.starts_with("$SNS_MEA_");
+}
 
 bool isOfKinematics(std::string_view table) { return table.starts_with("$TC_CARR"); }
 

@@ -17,18 +17,23 @@ namespace probewright::truth {
 /// axis, as it turns, and the one that goes furthest down. The axis of the tool may stand beside that of the spindle.
 struct ToolReach {
   double radius = 0, length = 0;
+  double rear = 0;  ///< from the end as drawn to where the edges end at the back, the furthest of them
 };
 
 inline ToolReach reachOf(const simulation::TrueTool* tool) {
   if (tool == nullptr || tool->cutter.insert) return {};
-  const Vector2& aside = tool->cutter.eccentricity;
-  if (tool->cutter.teeth.empty()) return {aside.norm(), 0};
-  ToolReach reach{-1e9, -1e9};
-  for (const simulation::TrueTooth& tooth : tool->cutter.teeth) {
+  const simulation::TrueCutter& cutter = tool->cutter;
+  const Vector2& aside = cutter.eccentricity;
+  const double whole = tool->length - cutter.holderLength;
+  const double edges = cutter.cutLength > 0 ? std::min(cutter.cutLength, whole) : whole;
+  if (cutter.teeth.empty()) return {aside.norm(), 0, edges};
+  ToolReach reach{-1e9, -1e9, -1e9};
+  for (const simulation::TrueTooth& tooth : cutter.teeth) {
     const double angle = radiansFromDegrees(tooth.angle), radius = tool->radius + tooth.radial - tooth.radialWear;
     const Vector2 edge = aside + radius * Vector2(std::cos(angle), std::sin(angle));
     reach.radius = std::max(reach.radius, edge.norm() - tool->radius);
     reach.length = std::max(reach.length, tooth.axial - tooth.axialWear - tooth.broken);
+    reach.rear = std::max(reach.rear, edges - tooth.axial + tooth.axialWear);
   }
   return reach;
 }
@@ -71,12 +76,6 @@ public:
 
 private:
   std::vector<records::EntryTruth> entries_;
-};
-
-/// A number of a tool: what the control computes with is the sum of its entries.
-struct ToolNumber {
-  std::string label;
-  std::vector<std::string> parts;  ///< columns, or data
 };
 
 }  // namespace probewright::truth

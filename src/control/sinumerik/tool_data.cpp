@@ -12,7 +12,7 @@ namespace probewright::control::sinumerik {
 
 namespace {
 
-constexpr std::string_view edgeData = "$TC_DP";
+constexpr std::string_view edgeData = "$TC_DP", additiveOffsets = "$TC_SCP", setupOffsets = "$TC_ECP";
 
 int wholeNumber(double value) { return value >= -1e9 && value <= 1e9 ? static_cast<int>(value) : 0; }
 
@@ -37,8 +37,25 @@ std::array<double, 3> ToolEdge::totalLength() const {
   return total;
 }
 
-std::string additiveOffsetName(int dl, int parameter) { return fmt::format("$TC_SCP{}", 10 * dl + parameter); }
-std::string setupOffsetName(int dl, int parameter) { return fmt::format("$TC_ECP{}", 10 * dl + parameter); }
+std::string additiveOffsetName(int dl, int parameter) {
+  return fmt::format("{}{}", additiveOffsets, 10 * dl + parameter);
+}
+std::string setupOffsetName(int dl, int parameter) { return fmt::format("{}{}", setupOffsets, 10 * dl + parameter); }
+
+std::optional<int> offsetNumber(std::string_view name) {
+  if (!name.starts_with(additiveOffsets) && !name.starts_with(setupOffsets)) return std::nullopt;
+  const auto parameter = parseInteger(name.substr(additiveOffsets.size()));
+  if (!parameter || *parameter < 10 || *parameter > 99) return std::nullopt;
+  return static_cast<int>(*parameter / 10);
+}
+
+bool isToolSize(std::string_view name) {
+  if (offsetNumber(name)) return true;
+  if (!name.starts_with(edgeData)) return false;
+  const auto parameter = parseInteger(name.substr(edgeData.size())).value_or(0);
+  return (parameter >= 3 && parameter <= 6) || (parameter >= 12 && parameter <= 15) ||
+         (parameter >= 21 && parameter <= 23);
+}
 
 std::optional<ToolEdge> toolEdge(const DataStore& store, int tool, int edge, int dl) {
   bool exists = false;

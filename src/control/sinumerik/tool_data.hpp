@@ -38,12 +38,19 @@ struct ToolEdge {
   double totalRadius() const { return radius + radiusWear + radiusAdditive + radiusSetup; }
 };
 
-/// Edge `edge` of tool `tool` with the offsets of `dl` (0: none, 1..6), or nothing if no data of it exist.
+/// Edge `edge` of tool `tool` with the offsets of `dl` (0: none, 1..6), or nothing if no data of it exist. Whoever
+/// wants to know what a control makes of tool data asks here, not the data: MD 20360 and adapters count.
 std::optional<ToolEdge> toolEdge(const DataStore& store, int tool, int edge, int dl = 0);
 
 /// "$TC_SCP13" for the additive offset of length 1 (parameter 3) with DL = 1; parameters 3..11, DL 1..6.
 std::string additiveOffsetName(int dl, int parameter);
 std::string setupOffsetName(int dl, int parameter);
+
+/// True for the names of tool data that add up to lengths and radius of an edge: $TC_DP3..6, 12..15 and 21..23, the
+/// additive and setup offsets $TC_SCP.., $TC_ECP...
+bool isToolSize(std::string_view name);
+/// The DL number of "$TC_SCP13", "$TC_ECP26": 1, 2; nothing for other names.
+std::optional<int> offsetNumber(std::string_view name);
 
 /// Tools with data, in order, and their edges.
 std::vector<int> toolNumbers(const DataStore& store);

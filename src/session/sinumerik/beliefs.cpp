@@ -9,6 +9,7 @@
 #include "base/text.hpp"
 #include "control/sinumerik/measuring_data.hpp"
 #include "control/sinumerik/text.hpp"
+#include "control/sinumerik/tool_data.hpp"
 #include "cycles/sinumerik/tool_probe_data.hpp"
 #include "execution/sinumerik/global_data.hpp"
 #include "session/sinumerik/lathe_beliefs.hpp"
@@ -21,6 +22,21 @@ namespace fs = std::filesystem;
 using control::Beliefs;
 using control::BelievedFrame;
 using control::BelievedTool;
+
+namespace {
+
+/// Tools of the setup have lengths; where the control counts a length as a diameter (MD 20360, which parameters and
+/// tables may tell), its datum is twice as large. What parameters and tables tell of tools is as the control has it.
+void countAsDiameters(sin::DataStore& store, const Beliefs& beliefs, const std::set<sin::DataKey>& told) {
+  for (const BelievedTool& tool : beliefs.tools) {
+    const auto edge = sin::toolEdge(store, tool.number, 1);
+    const sin::DataKey length("$TC_DP3", {tool.number, 1});
+    if (edge && edge->lengthScale[0] != 1 && !told.contains(length))
+      store.load(length, store.number(length) * edge->lengthScale[0]);
+  }
+}
+
+}  // namespace
 
 SinumerikData sinumerikData(const Beliefs& beliefs, Diagnostics& diagnostics,
                             const execution::sinumerik::GlobalUserData* globalData) {
@@ -93,6 +109,7 @@ SinumerikData sinumerikData(const Beliefs& beliefs, Diagnostics& diagnostics,
       frame.set(axis, sin::FramePart::Translation, angle);
     store.loadFrame(sin::DataKey("$P_UIFR", {offset.index}), frame);
   }
+  std::set<sin::DataKey> told;  // by parameters and tables
   for (const auto& [name, parameter] : beliefs.parameters) {
     if (!name.starts_with('$')) {
       diagnostics.push_back({Severity::Error,
@@ -103,11 +120,12 @@ SinumerikData sinumerikData(const Beliefs& beliefs, Diagnostics& diagnostics,
                              {}});
       continue;
     }
-    sin::InitText::parse(fmt::format("{}={}\n", name,
-                                     std::holds_alternative<double>(parameter.value)
-                                         ? sin::numberText(std::get<double>(parameter.value))
-                                         : "\"" + std::get<std::string>(parameter.value) + "\""),
-                         beliefs.file, store, diagnostics);
+    told.merge(sin::InitText::parse(fmt::format("{}={}\n", name,
+                                                std::holds_alternative<double>(parameter.value)
+                                                    ? sin::numberText(std::get<double>(parameter.value))
+                                                    : "\"" + std::get<std::string>(parameter.value) + "\""),
+                                    beliefs.file, store, diagnostics)
+                   .keys());
   }
   for (const fs::path& path : tableFiles(beliefs.tables, diagnostics)) {
     const std::string ending = upperCase(path.extension().string());
@@ -116,8 +134,10 @@ SinumerikData sinumerikData(const Beliefs& beliefs, Diagnostics& diagnostics,
     if (const auto text = contents(path, diagnostics)) {
       data.files.push_back(
           {path.filename().string(), sin::InitText::parse(*text, path.string(), store, diagnostics, 1, sizes)});
+      told.merge(data.files.back().text.keys());
     }
   }
+  countAsDiameters(store, beliefs, told);
   return data;
 }
 
