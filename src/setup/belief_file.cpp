@@ -53,8 +53,7 @@ void BeliefReader::readTables(TomlReader& control, const MayBeMissing& mayBeMiss
     control.diagnostics().push_back(
         {Severity::Note,
          control.placeOf("tables"),
-         fmt::format("there is no folder \"{}\" yet: the control begins without tables, and the run leaves them there",
-                     beliefs_.tables.string()),
+         fmt::format("there is no folder \"{}\" yet: the control begins without tables", beliefs_.tables.string()),
          {},
          {},
          {}});

@@ -197,21 +197,25 @@ TEST(OutputFolder, MayBeMissingAsTheTablesOfTheRunThatMakesIt) {
     return folder.file(name, text);
   };
   const std::string own = setupWith("own.toml", "deep/../deep/out"), typo = setupWith("typo.toml", "deep/uot");
-  const std::string path =
-      folder.file("a.h", "0 BEGIN PGM A MM\n1 FN 17: SYSWRITE ID 503 NR5 IDX1 = +7.25\n2 END PGM A MM\n");
+  const std::string path = folder.file(
+      "a.h",
+      "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z\n2 L X+0 Y+0 Z+50 R0 FMAX\n3 TCH PROBE 417 PRESET IN TS AXIS ~\nQ263=+0 ~\n"
+      "Q264=+0 ~\nQ294=+0 ~\nQ320=+0 ~\nQ260=+20 ~\nQ305=+20 ~\nQ333=-7.25 ~\nQ303=+1\n4 END PGM A MM\n");
+  const std::string empty = folder.file("b.h", "0 BEGIN PGM B MM\n1 END PGM B MM\n");
   // A preview leaves nothing, not even the folder.
   const Answer preview = probewright({"run", path, "--setup", own, "--out", out, "--preview"});
   EXPECT_EQ(preview.exit, 0) << preview.errors;
-  EXPECT_EQ(namesIn(folder / ""), (std::vector<std::string>{"a.h", "own.toml", "typo.toml"}));
+  EXPECT_EQ(namesIn(folder / ""), (std::vector<std::string>{"a.h", "b.h", "own.toml", "typo.toml"}));
 
   const Answer first = probewright({"run", path, "--setup", own, "--out", out});
   EXPECT_EQ(first.exit, 0) << first.errors;
   EXPECT_THAT(first.errors, ::testing::ContainsRegex("own.toml:4:.* note: there is no folder .*deep/out\" yet"));
   const std::string tables = textOf(folder / "deep/out/PRESET.PR");
-  EXPECT_FALSE(tables.empty());
-  const Answer second = probewright({"run", path, "--setup", own, "--out", out});
+  EXPECT_THAT(tables, ::testing::ContainsRegex("\n *20 [^\n]*-472\\.75"));
+  const Answer second = probewright({"run", empty, "--setup", own, "--out", out});
   EXPECT_EQ(second.exit, 0) << second.errors;
   EXPECT_EQ(second.errors, "");
+  EXPECT_EQ(textOf(folder / "deep/out/PRESET.PR"), tables) << "what the first run has found";
   // A preview of a later run begins with the tables and leaves them alone, as it does with everything else.
   const auto before = allIn(folder / "");
   folder.file("wrong.h", "0 BEGIN PGM B MM\n1 FOO\n2 END PGM B MM\n");

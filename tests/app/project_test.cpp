@@ -55,6 +55,26 @@ TEST(Projects, TakeTheTablesOfTheSetupWhereTheySaySo) {
   EXPECT_THAT(answer.output, HasSubstr("inspect.h                        out of tolerance"));
 }
 
+/// The tables of the setup are the folder of the project's own last run: the first time it is not there yet.
+TEST(Projects, MayBeginWithWhatTheirLastTimeHasLeft) {
+  const Folder folder;
+  folder.file("a.h", "0 BEGIN PGM A MM\n1 END PGM A MM\n");
+  folder.file("s.toml", "[control]\ntype = \"TNC640\"\ntables = \"out/2-a\"\n");
+  const std::string file = folder.file(
+      "job.toml", "[[run]]\nprogram = \"a.h\"\nsetup = \"s.toml\"\n[[run]]\nprogram = \"a.h\"\nname = \"again\"\n");
+  const auto run = [&](const std::string& out) {
+    return probewright({"project", file, "--out", (folder / out).string()});
+  };
+  const Answer first = run("out"), next = run("out"), elsewhere = run("other");
+  EXPECT_EQ(first.exit, 0) << first.errors;
+  EXPECT_THAT(first.errors, HasSubstr("out/2-a\" yet: the control begins without tables"));
+  EXPECT_EQ(next.exit, 0);
+  EXPECT_EQ(next.errors, "");
+  std::filesystem::remove_all(folder / "out");
+  EXPECT_EQ(elsewhere.exit, 0) << "there by then";
+  EXPECT_EQ(run("other").exit, 2);
+}
+
 TEST(Projects, EndWhereAProgramStops) {
   const Folder folder;
   const std::string stops = folder.file("STOPS.H", "0 BEGIN PGM STOPS MM\n1 TOOL CALL 7 Z\n2 END PGM STOPS MM\n");
