@@ -99,6 +99,10 @@ fs::path inTemporaryFolder() {
 
 }  // namespace
 
+MakersLock::~MakersLock() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
 MakersLock& MakersLock::operator=(MakersLock&& other) noexcept {
   if (descriptor_ >= 0) ::close(descriptor_);
   descriptor_ = std::exchange(other.descriptor_, -1);

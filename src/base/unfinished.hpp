@@ -16,7 +16,7 @@ public:
   explicit MakersLock(int descriptor = -1) : descriptor_(descriptor) {}
   MakersLock(MakersLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
   MakersLock& operator=(MakersLock&& other) noexcept;
-  ~MakersLock() { *this = MakersLock(); }
+  ~MakersLock();
   int descriptor() const { return descriptor_; }
 
 private:

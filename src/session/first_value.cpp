@@ -8,7 +8,7 @@ namespace probewright::session {
 
 namespace {
 
-/// Where `check` would complain of the default, or of 0.
+/// Where `check` would complain of the default, or of 0, or where the least value that it takes helps nobody.
 struct Example {
   std::string_view cycle;  ///< empty: every cycle that has the parameter and no example of its own
   std::string_view parameter;
@@ -21,7 +21,10 @@ constexpr Example examples[] = {
     {"451", "Q420", 90},
     {"451", "Q422", 4},
     {"", "Q247", 90},
+    {"", "Q253", 750},
     {"", "Q303", 1},
+    {"", "Q407", 12.5},
+    {"", "Q616", 1000},
     {"", "QS600", 0, "POINT"},
     {"CYCLE961", "S_SETV0", 10},
     {"CYCLE961", "S_SETV1", 40},

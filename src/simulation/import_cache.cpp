@@ -2,16 +2,17 @@
 
 #include <fmt/format.h>
 #include <openssl/evp.h>
-#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
+#include <fstream>
 #include <memory>
 #include <vector>
 
 #include "base/file.hpp"
-#include "base/unfinished.hpp"
 
 namespace probewright::simulation {
 namespace {
@@ -61,14 +62,25 @@ std::optional<std::string> ImportCache::find(const std::string& key) const {
 void ImportCache::keep(const std::string& key, std::string_view entry, const std::stop_token& stop) const {
   if (folder_.empty() || entry.size() > mostBytes_ / 2) return;
   // Not forced onto the disk, which takes long: after a crash its digest tells what is not whole.
-  auto making = UnfinishedFile::beside(pathOf(key));
-  if (!making) return;
-  const int file = making->descriptor();
-  bool written = writeAll(file, digest({key, entry}));
+  static std::atomic<int> made = 0;
+  const fs::path making = folder_ / fmt::format("{}{}.{}.{}", key, kEnding, getpid(), made++);
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  std::ofstream file(making, std::ios::binary);
+  const std::string sum = digest({key, entry});
+  file.write(sum.data(), static_cast<std::streamsize>(sum.size()));
   constexpr std::size_t kPiece = std::size_t{1} << 20U;
-  for (std::size_t done = 0; written && done < entry.size(); done += kPiece)
-    written = !stop.stop_requested() && writeAll(file, entry.substr(done, kPiece));
-  if (written && !stop.stop_requested() && ::fchmod(file, 0644) == 0 && making->finish()) tidy();
+  for (std::size_t done = 0; done < entry.size() && !stop.stop_requested(); done += kPiece) {
+    const std::string_view piece = entry.substr(done, kPiece);
+    file.write(piece.data(), static_cast<std::streamsize>(piece.size()));
+  }
+  file.close();
+  const bool whole = file && !stop.stop_requested();
+  if (whole) fs::rename(making, pathOf(key), error);
+  if (!whole || error)
+    fs::remove(making, error);
+  else
+    tidy();
 }
 
 void ImportCache::tidy() const {
@@ -81,7 +93,7 @@ void ImportCache::tidy() const {
   std::uint64_t total = 0;
   std::error_code error;
   for (fs::directory_iterator it(folder_, error), end; !error && it != end; it.increment(error)) {
-    // Also what an older version has left that was killed while it wrote.
+    // Also what a run that was killed while it wrote has left.
     if (it->path().filename().string().find(kEnding) == std::string::npos) continue;
     std::error_code gone;
     Entry found{it->path(), it->last_write_time(gone), it->file_size(gone)};

@@ -304,8 +304,6 @@ TEST(KilledCommands, LeaveNothingAfterTheNextOne) {
   const std::vector<std::string> commands = {
       run + "--append '" + in("record.csv") + "'",
       run + "--export xlsx",
-      "run examples/programs/housing.h --setup examples/setups/housing-tnc640.toml --cache '" + place.string() +
-          "' --out '" + out.string() + "'",
       "convert examples/programs/housing.h '" + in("housing.mpf") + "'",
       "machine mill3 --out '" + in("machine.html") + "'",
       "study examples/first/plate.h --setup examples/first/plate.toml --study examples/studies/plate.toml --trials 4 "
