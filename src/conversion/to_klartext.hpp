@@ -180,6 +180,9 @@ private:
   std::optional<Quantity> alongTurned(const MeasuringTask& task, const Results& results, Meaning meaning,
                                       const Quantity& angle) const;
   void restorePreset(const MeasuringTask& task);
+  /// True if what the safe area watches would show only in how the preset changes, and `task` corrects a preset that
+  /// may not be in effect: that one changes by more than the feature deviates.
+  bool deviatesInActivePresetOnly(const SafeArea& safe, const MeasuringTask& task) const;
   /// A deviation that shows only in how the preset has changed.
   std::optional<Quantity> deviationOfPreset(const MeasuringTask& task, Meaning meaning);
 

@@ -271,6 +271,10 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
     task.row = Quantity::of(row);
   }
   if (task.row == 99) {
+    if (task.correction != Correction::None && !rowZeroIsDue_ && activeRow_ != 99) {
+      throw NotCarriedOver("G599 is row 0 of the preset table, which a touch probe cycle selects when it corrects it",
+                           "select G599 before this cycle, or correct another zero offset");
+    }
     task.row = 0;
     rowZeroIsDue_ = false;
   }
@@ -278,7 +282,8 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
   const bool leaves = leaveFrame(task);
   const std::optional<SafeArea> safe = safeArea(call, framed);
   before_ = {};
-  if (safe) rememberPreset(task);
+  const bool showsInPreset = safe && deviatesInActivePresetOnly(*safe, task);
+  if (safe && !showsInPreset) rememberPreset(task);
   const bool measuresCorner = isCorner(task.feature) && task.correction == Correction::None;
   const bool measuresBefore = task.feature == Feature::Surface && task.correction != Correction::None &&
                               task.axis != 2 && !wantedAfter(block).empty();
@@ -297,13 +302,18 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
     out_.list(block, "S_TSA: the iTNC530 cannot put the preset back when the safe area is found to be exceeded",
               "measure first, and correct in a second call");
   }
-  const bool measuresFirst = safe && !restorable && !elder;
+  const bool measuresFirst = safe && !elder && (!restorable || showsInPreset);
   if (measuresFirst) {
     line("; THE SAFE AREA FIRST");
     MeasuringTask inspection = task;
     inspection.correction = Correction::None;
     const Results found =
         isCorner(task.feature) ? cornerByTouches(inspection) : heidenhainResults(writeTask(inspection), inspection);
+    if (isCorner(task.feature) && !task.clearanceBetween) {
+      // Back round the corner, to where the cycle began.
+      const auto back = [&](std::size_t i) { return formulas_.value(start[i] + task.place[i] - framed.place[i]); };
+      line(fmt::format("L {}{} {}{} R0 FMAX", axis(0), back(0), axis(1), back(1)));
+    }
     monitor(block, *safe, inspection, found);
   }
   Results results;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "conversion/heidenhain_tasks.hpp"
 #include "conversion/sinumerik_formulas.hpp"
 #include "conversion/to_klartext.hpp"
 
@@ -88,6 +89,14 @@ void ToKlartext::rememberPreset(const MeasuringTask& task) {
     line(fmt::format("{} = {}", own, value));
     before_.values[static_cast<std::size_t>(index)] = own;
   }
+}
+
+bool ToKlartext::deviatesInActivePresetOnly(const SafeArea& safe, const MeasuringTask& task) const {
+  const bool inEffect = task.active || (activeRow_ && task.row == (*activeRow_ == 99 ? 0 : *activeRow_));
+  if (task.correction == Correction::None || inEffect) return false;
+  const Results results = heidenhainResults(heidenhainCall(task, control_, probe_).cycle, task);
+  return std::ranges::any_of(safe.watched,
+                             [&](const SafeArea::Watched& each) { return !measured(task, results, each.meaning); });
 }
 
 std::optional<Quantity> ToKlartext::deviationOfPreset(const MeasuringTask& task, Meaning meaning) {
