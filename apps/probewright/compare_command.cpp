@@ -36,12 +36,12 @@ Result<nlohmann::json> resultsOf(const std::filesystem::path& run) {
 
 std::string number(const std::optional<double>& value, const std::string& unit) {
   if (!value) return "-";
-  return unit.empty() ? formatShortest(*value) : fmt::format("{:.4f} {}", *value, unit);
+  return unit.empty() ? formatShortest(*value) : formatFixed(*value, 4) + " " + unit;
 }
 
 std::string signedNumber(const std::optional<double>& value, const std::string& unit) {
   if (!value) return "";
-  return unit.empty() ? (*value > 0 ? "+" : "") + formatShortest(*value) : fmt::format("{:+.4f} {}", *value, unit);
+  return unit.empty() ? (*value > 0 ? "+" : "") + formatShortest(*value) : formatSigned(*value, 4) + " " + unit;
 }
 
 std::string line(const ComparedValue& value) {

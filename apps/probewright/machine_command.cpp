@@ -36,7 +36,8 @@ std::string directionText(const Vector3& direction) {
   for (Eigen::Index i = 0; i < 3; ++i) {
     if (std::abs(direction[i]) > 1 - 1e-9) return fmt::format("{}{}", direction[i] > 0 ? "+" : "-", names[i]);
   }
-  return fmt::format("[{:.4f}, {:.4f}, {:.4f}]", direction.x(), direction.y(), direction.z());
+  return fmt::format("[{}, {}, {}]", formatFixed(direction.x(), 4), formatFixed(direction.y(), 4),
+                     formatFixed(direction.z(), 4));
 }
 
 /// What goes where when the axis goes to plus.

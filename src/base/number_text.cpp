@@ -45,6 +45,6 @@ std::string formatSigned(double value, int decimals) {
   return text.front() == '-' ? text : "+" + text;
 }
 
-std::string formatShortest(double value) { return fmt::format("{}", value); }
+std::string formatShortest(double value) { return fmt::format("{}", value == 0 ? 0.0 : value); }
 
 }  // namespace probewright

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/number_text.hpp"
 #include "control/channel.hpp"
 
 /// Places in messages as the person at the control can look at them: in the active workpiece system.
@@ -18,7 +19,7 @@ inline std::string workpiecePlace(const ProgramPlace& tip, double unit, bool rad
   // A number of hundreds of digits says no more than its size.
   const auto number = [&](double millimetres) {
     const double value = millimetres / unit;
-    return std::abs(value) < 1e9 ? fmt::format("{:+.{}f}", value, inch ? 4 : 3) : fmt::format("{:+.3g}", value);
+    return std::abs(value) < 1e9 ? formatSigned(value, inch ? 4 : 3) : fmt::format("{:+.3g}", value);
   };
   return fmt::format("X{}{} Y{} Z{}{} of the active workpiece system", number(tip.x()), radius ? " (radius)" : "",
                      number(tip.y()), number(tip.z()), inch ? " inch" : "");

@@ -102,7 +102,7 @@ private:
     };
     const auto whole = [&](double value) { worksheet_write_number(sheet, line, column++, value, nullptr); };
     const auto length = [&](const std::optional<double>& value, lxw_format* format) {
-      if (value) worksheet_write_number(sheet, line, column, *value, format);
+      if (value) worksheet_write_number(sheet, line, column, *value + 0.0, format);  // no -0
       ++column;
     };
     using control::Verdict;

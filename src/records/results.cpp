@@ -10,6 +10,7 @@
 
 #include "cycles/main_results.hpp"
 #include "records/feature_names.hpp"
+#include "records/json_number.hpp"
 #include "records/readable_text.hpp"
 #include "records/truth_json.hpp"
 
@@ -19,7 +20,7 @@ using nlohmann::json;
 
 namespace {
 
-json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+json number(double value) { return jsonNumber(value); }
 
 json point(const Vector3& p) { return {number(p.x()), number(p.y()), number(p.z())}; }
 

@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "records/json_number.hpp"
+
 namespace probewright::records {
 
 using nlohmann::json;
@@ -28,7 +30,7 @@ std::string_view nameOf(EntryKind kind) {
 
 namespace {
 
-json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+json number(double value) { return jsonNumber(value); }
 
 json point(const Vector3& p) { return {number(p.x()), number(p.y()), number(p.z())}; }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/number_text.hpp"
+
 namespace probewright::session {
 
 using control::EventKind;
@@ -50,8 +52,8 @@ std::string takenOver(const std::string& row, const machine::OwnOffset& offset,
                       const machine::MachineDescription& machine) {
   std::string where;
   for (std::size_t i = 0; i < machine.axes.size(); ++i)
-    where += fmt::format(" {}{:.4f}", machine.axes[i].name, offset.origin[i]);
-  if (offset.rotation != 0) where += fmt::format(", turned by {:.4f} degrees", offset.rotation);
+    where += fmt::format(" {}{}", machine.axes[i].name, formatFixed(offset.origin[i], 4));
+  if (offset.rotation != 0) where += fmt::format(", turned by {} degrees", formatFixed(offset.rotation, 4));
   return fmt::format("{} is what the machine has as {}:{}", row, ownOffsetName(offset.number), where);
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <string_view>
 
+#include "geometry/place_text.hpp"
 #include "simulation/probe_signal.hpp"
 #include "simulation/virtual_machine.hpp"
 
@@ -59,8 +60,8 @@ void FeelingProbe::pullOff() {
 
 std::string FeelingProbe::describe(const Touch& touch, const char* part) const {
   const PlacedSolid& solid = truth_.solids[touch.solid];
-  return fmt::format("the {} of tool {} touched \"{}\" at X{:+.3f} Y{:+.3f} Z{:+.3f} on the table", part, tool_->number,
-                     solid.name, touch.point.x(), touch.point.y(), touch.point.z());
+  return fmt::format("the {} of tool {} touched \"{}\" at {} on the table", part, tool_->number, solid.name,
+                     placeText(touch.point));
 }
 
 void FeelingProbe::changeTool(int number) {
@@ -207,9 +208,9 @@ void FeelingProbe::feelBodies(const Motion& step) {
   guard_->arrived(1);
   if (!hit) return;
   colliding_ = true;
-  tell(fmt::format("{} touched \"{}\" at X{:+.3f} Y{:+.3f} Z{:+.3f} on the table",
+  tell(fmt::format("{} touched \"{}\" at {} on the table",
                    hit->byTool ? fmt::format("tool {}", tool_->number) : fmt::format("the machine's \"{}\"", hit->body),
-                   hit->byTool ? hit->body : hit->other, hit->point.x(), hit->point.y(), hit->point.z()));
+                   hit->byTool ? hit->body : hit->other, placeText(hit->point)));
 }
 
 bool FeelingProbe::bodiesTouch() const {

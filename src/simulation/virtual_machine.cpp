@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "geometry/place_text.hpp"
 #include "simulation/clear_way.hpp"
 
 namespace probewright::simulation {
@@ -126,7 +127,7 @@ namespace {
 
 /// A position in a message; one of hundreds of digits says no more than its size.
 std::string readable(double position) {
-  return std::abs(position) < 1e9 ? fmt::format("{:.4f}", position) : fmt::format("{:.3g}", position);
+  return std::abs(position) < 1e9 ? formatFixed(position, 4) : fmt::format("{:.3g}", position);
 }
 
 }  // namespace
@@ -186,8 +187,8 @@ std::string VirtualMachine::describe(const Touch& touch) const {
   const char* part = touch.shaft ? partOf(touch) : "stylus tip";
   const std::string tool = toolName();
   const std::string what = part == std::string_view("tool") ? tool : fmt::format("the {} of {}", part, tool);
-  return fmt::format("{} touched {} \"{}\" at X{:+.3f} Y{:+.3f} Z{:+.3f} on the table", what, roleName(solid.role),
-                     solid.name, touch.point.x(), touch.point.y(), touch.point.z());
+  return fmt::format("{} touched {} \"{}\" at {} on the table", what, roleName(solid.role), solid.name,
+                     placeText(touch.point));
 }
 
 void VirtualMachine::advance(const Motion& motion, const Stop& stop, PathKind kind) {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "geometry/place_text.hpp"
 #include "simulation/virtual_machine.hpp"
 
 /// What the bodies of the machine run into.
@@ -23,8 +24,7 @@ std::string VirtualMachine::describe(const BodyHit& hit) const {
     what = fmt::format("{} touched the machine's \"{}\"",
                        part == cutterName ? toolName() : fmt::format("the {} of {}", part, toolName()), hit.body);
   }
-  return fmt::format("{} at X{:+.3f} Y{:+.3f} Z{:+.3f} on the table", what, hit.point.x(), hit.point.y(),
-                     hit.point.z());
+  return fmt::format("{} at {} on the table", what, placeText(hit.point));
 }
 
 std::string VirtualMachine::stopAt(const Motion& motion, const BodyHit& hit, PathKind kind) {

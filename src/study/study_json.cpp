@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "records/json_number.hpp"
 #include "records/readable_text.hpp"
 
 namespace probewright::study {
@@ -19,7 +20,7 @@ std::string readable(const std::string& text) {
   return reader(text);
 }
 
-json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+json number(double value) { return records::jsonNumber(value); }
 
 json optional(const std::optional<double>& value) { return value ? number(*value) : json(nullptr); }
 

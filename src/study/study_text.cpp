@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number_text.hpp"
 #include "study/adaptive.hpp"
 
 namespace probewright::study {
@@ -18,11 +19,12 @@ int decimalsFor(double uncertainty) {
 }
 
 std::string value(const std::optional<double>& number, int decimals) {
-  return number ? fmt::format("{:.{}f}", *number, decimals) : "-";
+  return number ? formatFixed(*number, decimals) : "-";
 }
 
 std::string range(const std::optional<Interval>& interval, int decimals) {
-  return interval ? fmt::format("{:.{}f} .. {:.{}f}", interval->low, decimals, interval->high, decimals) : "-";
+  return interval ? fmt::format("{} .. {}", formatFixed(interval->low, decimals), formatFixed(interval->high, decimals))
+                  : "-";
 }
 
 /// A standard deviation; one value has none.
@@ -79,11 +81,10 @@ std::string resultsTable(const StudyResult& result, const std::vector<const Answ
   for (const Answer* answer : shown) {
     const int decimals = decimalsFor(answer->standardUncertainty);
     blind = blind || !answer->error;
-    rows.push_back({answer->of.key + (answer->error ? "" : " *"), answer->of.unit, value(answer->estimate, decimals),
-                    deviation(answer->standardUncertainty), range(answer->symmetric, decimals),
-                    range(answer->shortest, decimals),
-                    answer->error ? fmt::format("{:+.{}f}", answer->error->mean, decimals) : "-",
-                    std::to_string(answer->values.count)});
+    rows.push_back(
+        {answer->of.key + (answer->error ? "" : " *"), answer->of.unit, value(answer->estimate, decimals),
+         deviation(answer->standardUncertainty), range(answer->symmetric, decimals), range(answer->shortest, decimals),
+         answer->error ? formatSigned(answer->error->mean, decimals) : "-", std::to_string(answer->values.count)});
   }
   std::string text =
       "What a measured value is worth: the true value behind the estimate lies in the interval\n" + table(rows);
@@ -157,12 +158,12 @@ std::string conformityText(const StudyResult& result, const Answer& answer) {
       fmt::format("\nConformity of {}: {} {}\n", answer.of.key, limitsOf(*answer.tolerance), answer.of.unit);
   if (answer.estimate && answer.corrected && answer.conformance && answer.decision) {
     const std::string corrected =
-        answer.error ? fmt::format(", less the bias {:.{}f}", *answer.corrected, decimals) : "";
+        answer.error ? fmt::format(", less the bias {}", formatFixed(*answer.corrected, decimals)) : "";
     text += fmt::format(
-        "  measured as {:.{}f}{}: {} (ISO 14253-1, guard band {:.3g} u = {:.2g}); "
+        "  measured as {}{}: {} (ISO 14253-1, guard band {:.3g} u = {:.2g}); "
         "conformance probability {}\n",
-        *answer.estimate, decimals, corrected, nameOf(*answer.decision), result.study.guardFactor, answer.guardBand,
-        percent(*answer.conformance));
+        formatFixed(*answer.estimate, decimals), corrected, nameOf(*answer.decision), result.study.guardFactor,
+        answer.guardBand, percent(*answer.conformance));
   }
   const auto risks = [&](const char* rule, const Risks& r) {
     return fmt::format("  {}: consumer's risk {} ({} to {}), producer's risk {} ({} to {})\n", rule,

@@ -42,9 +42,10 @@ std::string inQuotes(std::string_view text) {
   return result + "\"";
 }
 
-/// Shortest text that reads back as the same double, with an exponent where that is shorter.
+/// Shortest text that reads back as the same number, with an exponent where that is shorter.
 std::string numberText(double value) {
   if (std::isnan(value)) return "";
+  if (value == 0) return "0";  // both zeros
   std::array<char, 40> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
   return std::string(text.data(), end);

@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "records/json_number.hpp"
 #include "survival/survival_records.hpp"
 
 namespace probewright::survival {
@@ -88,6 +89,7 @@ ordered_json survivalJson(const Survival& survival, const SurvivalInfo& info) {
     failures.push_back(std::move(entry));
   }
   out["boxes"] = survival.boxes;
+  records::clearNegativeZeros(out);
   return out;
 }
 

@@ -44,7 +44,7 @@ std::string directionText(const Vector3& direction) {
   std::string text;
   for (int i = 0; i < 3; ++i)
     if (std::abs(direction[i]) > 0.005)
-      text += fmt::format("{}{}{:+.2f}", text.empty() ? "direction " : " ", "XYZ"[i], direction[i]);
+      text += fmt::format("{}{}{}", text.empty() ? "direction " : " ", "XYZ"[i], formatSigned(direction[i], 2));
   return text;
 }
 

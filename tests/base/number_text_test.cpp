@@ -35,5 +35,13 @@ TEST(FormatFixed, NeverWritesANegativeZero) {
   EXPECT_EQ(formatSigned(-12.5, 1), "-12.5");
 }
 
+TEST(NumberText, NoTextHasANegativeZero) {
+  EXPECT_EQ(formatShortest(-0.0), "0");
+  EXPECT_EQ(formatFixed(-0.0, 3), "0.000");
+  EXPECT_EQ(formatFixed(-0.0004, 3), "0.000");
+  EXPECT_EQ(formatSigned(-0.0004, 3), "+0.000");
+  EXPECT_EQ(formatSigned(-0.0, 0), "+0");
+}
+
 }  // namespace
 }  // namespace probewright

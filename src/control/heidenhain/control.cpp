@@ -182,9 +182,9 @@ void Control::setProbing(bool probing) {
 }
 
 void Control::writeCalibration(double MachineParameters::*member, const std::string& name, double value) {
-  const std::string before = fmt::format("{:.4f}", parameters.*member);
+  const std::string before = formatFixed(parameters.*member, 4);
   parameters.*member = value;
-  const std::string after = fmt::format("{:.4f}", value);
+  const std::string after = formatFixed(value, 4);
   if (after != before) journal.write({"calibration data", name, before, after});
 }
 

@@ -153,8 +153,8 @@ void run(Context& context, const Arguments&) {
   const int reaction = context.option(309);
   const bool stops = verdict == Verdict::Scrap ? reaction != 0 : verdict == Verdict::Rework && reaction == 1;
   if (stops) {
-    context.stop(fmt::format("Tolerance exceeded: {}\nDeviation along the surface normal {:+.{}f}", state, along / unit,
-                             decimals));
+    context.stop(fmt::format("Tolerance exceeded: {}\nDeviation along the surface normal {}", state,
+                             formatSigned(along / unit, decimals)));
   }
 }
 

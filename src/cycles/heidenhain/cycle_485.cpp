@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/number_text.hpp"
 #include "base/truncated.hpp"
 #include "control/alarm.hpp"
 #include "control/scoped.hpp"
@@ -182,7 +183,7 @@ void run(Context& context, const Arguments&) {
     const double deviation = *value - before;
     const int found = toolStatus(deviation, tools.numberOr(row, wear, 0), tools.numberOr(row, breakage, 0));
     status = std::max(status, found);
-    screen += fmt::format("{}\n  {:+.4f}{}\n", nominal.name(), *value, statusMark(mode == 0 ? 0 : found));
+    screen += fmt::format("{}\n  {}{}\n", nominal.name(), formatSigned(*value, 4), statusMark(mode == 0 ? 0 : found));
     if (mode == 0 && settings.entersMeasured) {
       control.writeNumber(table, row, nominal, *value);
       control.writeNumber(table, row, delta, 0);

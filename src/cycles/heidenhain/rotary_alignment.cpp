@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/number_text.hpp"
 #include "control/alarm.hpp"
 #include "cycles/heidenhain/transfer.hpp"
 
@@ -41,8 +42,8 @@ std::size_t requireTable(Context& context, int about) {
   for (std::size_t axis = 0; axis < description.axes.size(); ++axis) {
     if (description.axes[axis].kind != machine::AxisKind::Rotary) continue;
     if (atZero[axis] != 0)
-      standing +=
-          fmt::format("{}{} at {:.3f}", standing.empty() ? "" : ", ", description.axes[axis].name, atZero[axis]);
+      standing += fmt::format("{}{} at {}", standing.empty() ? "" : ", ", description.axes[axis].name,
+                              formatFixed(atZero[axis], 3));
     atZero[axis] = 0;
   }
   for (std::size_t axis = 0; axis < description.axes.size(); ++axis) {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/number_text.hpp"
 #include "base/truncated.hpp"
 #include "control/alarm.hpp"
 #include "control/heidenhain/tool_table.hpp"
@@ -384,13 +385,13 @@ void ToolMeasurement::show(const ToolDimension& dimension, Of of) {
     return statusMark(toolStatus(value - nominal, column(entries.wear), column(entries.breakage)));
   };
   screen_ += fmt::format("{}\n", entries.title);
-  if (dimension.whole) screen_ += fmt::format("  {:+.4f}{}\n", *dimension.whole, mark(*dimension.whole));
+  if (dimension.whole) screen_ += fmt::format("  {}{}\n", formatSigned(*dimension.whole, 4), mark(*dimension.whole));
   if (dimension.teeth.empty()) return;
   const auto [least, most] = std::ranges::minmax(dimension.teeth);
-  screen_ += fmt::format("  MIN {:+.4f}  MAX {:+.4f}\n", least, most);
+  screen_ += fmt::format("  MIN {}  MAX {}\n", formatSigned(least, 4), formatSigned(most, 4));
   const std::size_t room = context_.control().isTNC640() ? dimension.teeth.size() : 24;
   for (std::size_t i = 0; i < std::min(room, dimension.teeth.size()); ++i)
-    screen_ += fmt::format("  {:2} {:+.4f}{}\n", i + 1, dimension.teeth[i], mark(dimension.teeth[i]));
+    screen_ += fmt::format("  {:2} {}{}\n", i + 1, formatSigned(dimension.teeth[i], 4), mark(dimension.teeth[i]));
 }
 
 void ToolMeasurement::finish() {

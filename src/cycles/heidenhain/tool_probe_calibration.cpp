@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/number_text.hpp"
 #include "control/alarm.hpp"
 #include "cycles/heidenhain/tool_measurement.hpp"
 
@@ -184,10 +185,10 @@ void Calibration::keep() {
   control_.writeCalibration(&MachineParameters::contactRadius2, "TT radius, minor axis", half.y());
   control_.writeCalibration(&MachineParameters::contactAngle, "TT rotation", degreesFromRadians(rotation_));
   std::string screen = fmt::format(
-      "TT CALIBRATED WITH TOOL {}\n  X {:+.4f}\n  Y {:+.4f}\n  Z {:+.4f}\n  RADIUS {:.4f} {:.4f}\n  "
-      "RUN-OUT OF THE TOOL {:+.4f} {:+.4f}\n",
-      control_.tool.row, place_.x(), place_.y(), place_.z(), half.x(), half.y(), runOut.x(), runOut.y());
-  if (settings_.findsRotation) screen += fmt::format("  ROTATION {:+.4f}\n", degreesFromRadians(rotation_));
+      "TT CALIBRATED WITH TOOL {}\n  X {}\n  Y {}\n  Z {}\n  RADIUS {:.4f} {:.4f}\n  RUN-OUT OF THE TOOL {} {}\n",
+      control_.tool.row, formatSigned(place_.x(), 4), formatSigned(place_.y(), 4), formatSigned(place_.z(), 4),
+      half.x(), half.y(), formatSigned(runOut.x(), 4), formatSigned(runOut.y(), 4));
+  if (settings_.findsRotation) screen += fmt::format("  ROTATION {}\n", formatSigned(degreesFromRadians(rotation_), 4));
   if (tipping_) screen += fmt::format("  TIPPING {:.4f}\n", *tipping_);
   context_.record().screens.push_back(screen);
 }

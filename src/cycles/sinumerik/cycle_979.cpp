@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/number_text.hpp"
 #include "cycles/fit_records.hpp"
 #include "cycles/sinumerik/context.hpp"
 #include "cycles/sinumerik/corrections.hpp"
@@ -78,8 +79,8 @@ int grooveOrRib(OldCall& call) {
   if (std::abs(beside.dot(probing::directionAt(call.number("_STA1")).inPlane())) > near)
     call.refuseVariant(
         fmt::format("today CYCLE977 measures grooves and ribs at an angle about the place where the "
-                    "probe stands, and that is {:.4f} {:.4f}, not _CPA, _CPO",
-                    here.x() / call.control().unit, here.y() / call.control().unit));
+                    "probe stands, and that is {} {}, not _CPA, _CPO",
+                    formatFixed(here.x() / call.control().unit, 4), formatFixed(here.y() / call.control().unit, 4)));
   call.isNow("CYCLE977");
   call.put("S_MA", 1);
   return call.digit(1) + call.task(OldCall::Corrects::AlsoTools);

@@ -1,4 +1,5 @@
 #include "cycles/sinumerik/kinematics_log.hpp"
+#include "base/number_text.hpp"
 #include "base/truncated.hpp"
 
 #include <fmt/format.h>
@@ -16,10 +17,7 @@ using control::sinumerik::firstDatumOfAxis;
 using control::sinumerik::firstDatumOfOffset;
 
 /// Six decimals, as the control has them; never -0.
-std::string number(double value) {
-  const std::string text = fmt::format("{:.6f}", value);
-  return text == "-0.000000" ? text.substr(1) : text;
-}
+std::string number(double value) { return formatFixed(value, 6); }
 
 std::string vectorLine(int first, int carrier, const Vector3& vector, std::string_view name) {
   std::string line;

@@ -141,6 +141,7 @@ private:
 }  // namespace
 
 std::string writeNumber(double number) {
+  if (number == 0) return "0";  // both zeros
   std::array<char, 400> buffer{};
   const auto [end, error] =
       std::to_chars(buffer.data(), buffer.data() + buffer.size(), number, std::chars_format::fixed);
