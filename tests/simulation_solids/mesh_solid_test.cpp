@@ -297,7 +297,8 @@ TEST(Stl, TellsHowFarItHasCome) {
   EXPECT_THAT(told, ::testing::IsEmpty()) << "a quick import says nothing";
   options.patience = 0;
   ASSERT_TRUE(readStl(folder / "binary.stl", options));
-  EXPECT_THAT(told, ::testing::ElementsAre("binary.stl: reading the triangles"));
+  EXPECT_THAT(told, ::testing::ElementsAre("binary.stl: reading the triangles", "binary.stl: looking for open edges",
+                                           "binary.stl: building the search tree"));
 }
 
 TEST(Stl, SaysWhatIsWrongWithABadFile) {
