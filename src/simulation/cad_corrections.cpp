@@ -1,10 +1,17 @@
 #include "simulation/cad_corrections.hpp"
 
 #include <BRepAdaptor_Surface.hxx>
+#include <BRep_Tool.hxx>
+#include <GeomAPI_ProjectPointOnSurf.hxx>
+#include <Geom_Curve.hxx>
+#include <Geom_Surface.hxx>
 #include <IGESBasic_SingularSubfigure.hxx>
 #include <IGESData_GlobalSection.hxx>
 #include <IGESData_IGESModel.hxx>
+#include <IGESGeom_Boundary.hxx>
+#include <IGESGeom_CurveOnSurface.hxx>
 #include <IGESGeom_OffsetSurface.hxx>
+#include <IGESGeom_TrimmedSurface.hxx>
 #include <StepGeom_Axis2Placement3d.hxx>
 #include <StepGeom_CartesianPoint.hxx>
 #include <StepGeom_CartesianTransformationOperator3d.hxx>
@@ -26,10 +33,13 @@
 #include <TCollection_HAsciiString.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <XSControl_Reader.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 namespace probewright::simulation {
 namespace {
@@ -147,6 +157,66 @@ void takePlainOffsets(const Handle(Interface_InterfaceModel) & model) {
   }
 }
 
+namespace {
+
+/// The curves in space of the borders of faces on a surface.
+std::vector<Handle(IGESData_IGESEntity)> bordersOn(const Handle(Interface_InterfaceModel) & model,
+                                                   const Handle(IGESData_IGESEntity) & surface) {
+  std::vector<Handle(IGESData_IGESEntity)> curves;
+  const auto add = [&](const Handle(IGESGeom_CurveOnSurface) & border) {
+    if (!border.IsNull() && !border->Curve3D().IsNull()) curves.push_back(border->Curve3D());
+  };
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    if (model->IsErrorEntity(i)) continue;
+    if (const auto face = Handle(IGESGeom_TrimmedSurface)::DownCast(model->Value(i)); !face.IsNull()) {
+      if (face->Surface() != surface) continue;
+      if (face->HasOuterContour()) add(face->OuterContour());
+      for (int k = 1; k <= face->NbInnerContours(); ++k)
+        add(face->InnerContour(k));
+    }
+    if (const auto border = Handle(IGESGeom_Boundary)::DownCast(model->Value(i)); !border.IsNull()) {
+      if (border->Surface() != surface) continue;
+      for (int k = 1; k <= border->NbModelSpaceCurves(); ++k)
+        curves.push_back(border->ModelSpaceCurve(k));
+    }
+  }
+  return curves;
+}
+
+/// On which side of its basis an offset surface lies by the borders of faces on it: along the normal 1, against it -1;
+/// nothing where they do not tell.
+std::optional<int> sideOfBorders(XSControl_Reader& reader, const Handle(IGESGeom_OffsetSurface) & offset,
+                                 const Handle(Geom_Surface) & basis) {
+  int along = 0, against = 0;
+  for (const Handle(IGESData_IGESEntity) & border : bordersOn(reader.WS()->Model(), offset)) {
+    reader.ClearShapes();
+    if (!reader.TransferEntity(border)) continue;
+    for (TopExp_Explorer edges(reader.OneShape(), TopAbs_EDGE); edges.More(); edges.Next()) {
+      double first = 0, last = 0;
+      const Handle(Geom_Curve) curve = BRep_Tool::Curve(TopoDS::Edge(edges.Current()), first, last);
+      if (curve.IsNull()) continue;
+      for (const double share : {0.1, 0.5, 0.9}) {
+        const gp_Pnt place = curve->Value(first + share * (last - first));
+        const GeomAPI_ProjectPointOnSurf feet(place, basis);
+        if (feet.NbPoints() == 0) continue;
+        double u = 0, v = 0;
+        feet.LowerDistanceParameters(u, v);
+        gp_Pnt foot;
+        gp_Vec alongU, alongV;
+        basis->D1(u, v, foot, alongU, alongV);
+        const gp_Vec way(foot, place), normal = alongU.Crossed(alongV);
+        constexpr double kUpright = 0.99;
+        const double rise = way.Dot(normal);
+        if (std::abs(rise) > kUpright * way.Magnitude() * normal.Magnitude()) ++(rise > 0 ? along : against);
+      }
+    }
+  }
+  if ((along == 0) == (against == 0)) return std::nullopt;
+  return along > 0 ? 1 : -1;
+}
+
+}  // namespace
+
 void turnOffsets(XSControl_Reader& reader) {
   const Handle(Interface_InterfaceModel) model = reader.WS()->Model();
   for (int i = 1; i <= model->NbEntities(); ++i) {
@@ -154,8 +224,15 @@ void turnOffsets(XSControl_Reader& reader) {
     if (offset.IsNull() || model->IsErrorEntity(i) || offset->Surface().IsNull()) continue;
     reader.ClearShapes();
     if (!reader.TransferEntity(offset->Surface())) continue;
-    for (TopExp_Explorer faces(reader.OneShape(), TopAbs_FACE); faces.More(); faces.Next()) {
+    const TopoDS_Shape basis = reader.OneShape();
+    for (TopExp_Explorer faces(basis, TopAbs_FACE); faces.More(); faces.Next()) {
       const BRepAdaptor_Surface surface(TopoDS::Face(faces.Current()));
+      // Some systems write the vector of another place; what runs on the surface tells better.
+      if (const auto side = sideOfBorders(reader, offset, BRep_Tool::Surface(TopoDS::Face(faces.Current())))) {
+        if (*side * offset->Distance() < 0)
+          offset->Init(offset->OffsetIndicator().XYZ(), -offset->Distance(), offset->Surface());
+        break;
+      }
       gp_Pnt middle;
       gp_Vec alongU, alongV;
       surface.D1((surface.FirstUParameter() + surface.LastUParameter()) / 2,

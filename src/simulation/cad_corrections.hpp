@@ -24,8 +24,8 @@ Handle(Standard_Transient) unreadableApex(const Handle(Interface_InterfaceModel)
 /// torus itself: OpenCASCADE does not find their edges on the offset.
 void takePlainOffsets(const Handle(Interface_InterfaceModel) & model);
 
-/// Offset surfaces of IGES lie to the side of a vector at the middle of their basis; OpenCASCADE offsets along the
-/// normal. Nothing may have been built yet.
+/// Offset surfaces of IGES lie to the side of a vector at the middle of their basis, and to that of the borders of
+/// their faces; OpenCASCADE offsets along the normal. Nothing may have been built yet.
 void turnOffsets(XSControl_Reader& reader);
 
 /// Lengths of an IGES model over the true ones, which OpenCASCADE does not look at; 1 for other files.

@@ -1,6 +1,5 @@
 #include "simulation/cad_model.hpp"
 
-#include <BRepAdaptor_Surface.hxx>
 #include <BRepLib.hxx>
 #include <BRep_Tool.hxx>
 #include <BinTools.hxx>
@@ -11,7 +10,6 @@
 #include <Geom_OffsetSurface.hxx>
 #include <Geom_TrimmedCurve.hxx>
 #include <Poly_Triangulation.hxx>
-#include <ShapeUpgrade_ShapeDivideContinuity.hxx>
 #include <TColStd_Array1OfReal.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -24,6 +22,7 @@
 #include <stdexcept>
 
 #include "simulation/cad_elements.hpp"
+#include "simulation/cad_kinks.hpp"
 #include "simulation/cad_refinement.hpp"
 #include "simulation/cad_vectors.hpp"
 #include "simulation/face_mesh.hpp"
@@ -98,36 +97,6 @@ bool isClosed(const TopoDS_Shape& solid) {
   }
   return true;
 }
-
-/// True if the surface has a kink within the face.
-bool hasKinks(const TopoDS_Face& face) {
-  const BRepAdaptor_Surface surface(face);
-  switch (surface.GetType()) {
-    case GeomAbs_BSplineSurface:
-    case GeomAbs_SurfaceOfRevolution:
-    case GeomAbs_SurfaceOfExtrusion:
-      return surface.NbUIntervals(GeomAbs_C1) > 1 || surface.NbVIntervals(GeomAbs_C1) > 1;
-    default:
-      return false;
-  }
-}
-
-}  // namespace
-
-TopoDS_Shape withoutKinks(const TopoDS_Shape& shape) {
-  TopExp_Explorer faces(shape, TopAbs_FACE);
-  while (faces.More() && !hasKinks(TopoDS::Face(faces.Current())))
-    faces.Next();
-  if (!faces.More()) return shape;
-  ShapeUpgrade_ShapeDivideContinuity divide(shape);
-  divide.SetSurfaceCriterion(GeomAbs_C1);
-  divide.SetBoundaryCriterion(GeomAbs_C0);
-  divide.SetPCurveCriterion(GeomAbs_C0);
-  divide.Perform();
-  return divide.Result().IsNull() ? shape : divide.Result();
-}
-
-namespace {
 
 Faces facesOf(const TopoDS_Shape& shape) {
   Faces found;

@@ -60,9 +60,6 @@ struct CadModel {
 /// How far the surface leaves the triangle of an element, sampled.
 double deviationOf(const CadElement& element, const Geom_Surface& surface);
 
-/// The shape with faces cut along the kinks of their surfaces, which OpenCASCADE tessellates for hours.
-TopoDS_Shape withoutKinks(const TopoDS_Shape& shape);
-
 /// Prepares a shape; tessellates it unless it has triangles that are fine enough. Throws Standard_Failure or
 /// std::runtime_error where that is impossible, as those below do.
 CadModel cadModel(const TopoDS_Shape& shape, double deflection);

@@ -50,6 +50,7 @@
 #include "simulation/cad_corrections.hpp"
 #include "simulation/cad_edges.hpp"
 #include "simulation/cad_face.hpp"
+#include "simulation/cad_kinks.hpp"
 #include "simulation/cad_model.hpp"
 #include "simulation/cad_step_library.hpp"
 #include "simulation/cad_units.hpp"
