@@ -12,7 +12,7 @@
 
 #include "study/adaptive.hpp"
 #include "study/crew.hpp"
-#include "study/trial_summary.hpp"
+#include "study/findings.hpp"
 
 /// The trials of a study from the first to the last: who carries them out, when there are enough, what is kept of them.
 namespace probewright::study {

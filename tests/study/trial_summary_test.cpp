@@ -6,7 +6,7 @@
 #include <random>
 
 #include "study/model_bench.hpp"
-#include "study/trial_summary.hpp"
+#include "study/findings.hpp"
 
 /// Sums of trials against all values: the same bits in any order, and quantiles no farther off than is said.
 namespace probewright::study::testing {
