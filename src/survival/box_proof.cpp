@@ -10,8 +10,7 @@
 #include <utility>
 
 #include "simulation/contact_search.hpp"
-#include "survival/course.hpp"
-#include "survival/curvature.hpp"
+#include "survival/middle_run.hpp"
 #include "survival/shift.hpp"
 
 namespace probewright::survival {
@@ -54,13 +53,12 @@ public:
 private:
   BoxVerdict undecided(std::string why, const Step* at = nullptr) const {
     if (program_.stop().stop_requested()) return {Verdict::Cancelled, {}};
-    return {Verdict::Undecided,
-            Reason{std::move(why), at ? placeAt(middle_.outcome.trace, at->seconds) : SourcePlace{}}};
+    return middle_.undecided(std::move(why), at);
   }
 
   bool isLinear(std::size_t axis) const { return machine().axes[axis].kind == AxisKind::Linear; }
   const machine::MachineDescription& machine() const { return middle_.truth.machine; }
-  double way(const AxisPositions& a, const AxisPositions& b) const { return wayOf(machine(), a, b); }
+  double way(const AxisPositions& a, const AxisPositions& b) const { return middle_.way(a, b); }
   /// How far the tool of the step is at `b` from where it is at `a`.
   Shift apart(const Step& step, const AxisPositions& a, const AxisPositions& b) const;
 
@@ -75,7 +73,7 @@ private:
   std::optional<BoxVerdict> bodiesClear(const Step& step, const AxisPositions& from, const Shift& shift) const;
   std::optional<BoxVerdict> standsClear(const Step& step, const Spread& spread) const;
   Motion motionOf(const AxisPositions& from, const Step& step) const {
-    return {*kinematics_, from, step.to, from, step.seconds, simulation::MotionProfile(1, 1, 1)};
+    return {*middle_.kinematics, from, step.to, from, step.seconds, simulation::MotionProfile(1, 1, 1)};
   }
   ToolShape shapeOf(const Step& step) const {
     return simulation::shapeOf(step.tool < 0 ? nullptr : &middle_.truth.tools[static_cast<std::size_t>(step.tool)],
@@ -83,7 +81,7 @@ private:
   }
   const Displacements::OfTool& ownOf(const Step& step) const {
     static const Displacements::OfTool none;
-    return step.tool < 0 ? none : displacements_.ofTools[static_cast<std::size_t>(step.tool)];
+    return step.tool < 0 ? none : middle_.displacements.ofTools[static_cast<std::size_t>(step.tool)];
   }
   Shift turned(const Step& step, double degrees) const {
     if (step.tool < 0) return {};
@@ -91,13 +89,10 @@ private:
     return {0, radiansFromDegrees(degrees) * (probe.tipOffset.norm() + probe.starArm)};
   }
   Vector3 upOf(const Step& step) const {
-    return kinematics_->tableFromSpindle(step.from, 0).linear() * shapeOf(step).shank;
+    return middle_.kinematics->tableFromSpindle(step.from, 0).linear() * shapeOf(step).shank;
   }
   /// How far the tool on this step can be from the solid otherwise than in the middle, its own parts aside.
   Shift shiftOf(const Step& step, const Shift& commanded, double turn, std::size_t solid) const;
-  std::size_t cycleOf(std::size_t touch) const;
-  /// The size of what the touches of a cycle are on: see curvature.hpp.
-  double sizeAround(std::size_t cycle) const;
   /// Where on the line of the last touch a place lies: 0 where the measuring move began, 1 at its end.
   std::optional<double> placeOnLine(const std::vector<Step>& steps, std::size_t measured,
                                     const AxisPositions& at) const;
@@ -105,18 +100,11 @@ private:
   const ClampedProgram& program_;
   const ClampedWorlds& worlds_;
   const Box& box_;
-  WatchedRun middle_;
-  std::optional<simulation::TrueKinematics> kinematics_;
+  MiddleRun middle_;
   std::vector<simulation::PlacedSolid> solids_, mostSolids_, leastSolids_;
-  std::vector<Surroundings> most_, least_;  ///< a solid each; they refer to those above
-  Displacements displacements_;
-  double errors_ = 0;            ///< mm: of the machine, where they differ from run to run
-  double apart_ = 0;             ///< mm: of solids from where they are in the middle of the box
-  double farthest_ = 0;          ///< mm: of solids from where they are in the middle of all tolerances
-  std::vector<bool> optional_;   ///< of the steps: see Course
-  std::vector<Spread> spreads_;  ///< a step each
-  std::vector<PlannedTouch> plan_;
-  std::vector<std::size_t> touches_;               ///< steps
+  std::vector<Surroundings> most_, least_;         ///< a solid each; they refer to those above
+  double errors_ = 0;                              ///< mm: of the machine, where they differ from run to run
+  std::vector<Spread> spreads_;                    ///< a step each
   std::vector<double> shifts_;                     ///< of touches along their way, mm
   std::map<std::size_t, double> nearness_;         ///< by cycle: the most that a touch shifts, over the size
   std::vector<std::vector<double>> resultSlopes_;  ///< by touch: what each result changes by
@@ -125,13 +113,13 @@ private:
 
 Shift Proof::apart(const Step& step, const AxisPositions& a, const AxisPositions& b) const {
   if (a == b) return {};
-  const Vector3 way =
-      kinematics_->tableFromSpindle(b, 0).translation() - kinematics_->tableFromSpindle(a, 0).translation();
+  const Vector3 way = middle_.kinematics->tableFromSpindle(b, 0).translation() -
+                      middle_.kinematics->tableFromSpindle(a, 0).translation();
   return shiftAgainst(way, upOf(step));
 }
 
 Shift Proof::shiftOf(const Step& step, const Shift& commanded, double turn, std::size_t solid) const {
-  const Displacements::OfSolid& own = displacements_.ofSolids[solid];
+  const Displacements::OfSolid& own = middle_.displacements.ofSolids[solid];
   Shift shift = commanded + turned(step, turn) + everyWay(errors_ + own.turn);
   const Vector3 up = upOf(step);
   Shift most;
@@ -144,21 +132,9 @@ Shift Proof::shiftOf(const Step& step, const Shift& commanded, double turn, std:
 }
 
 std::optional<BoxVerdict> Proof::prepare() {
-  middle_ = program_.watch(box_.middle());
-  if (middle_.end.cancelled) return BoxVerdict{Verdict::Cancelled, {}};
-  if (!middle_.end.failure) {
-    if (auto other = otherThanMeant(program_.meant(), middle_.path, middle_.truth, worlds_.sizeVaries()))
-      middle_.end.failure = Reason{*std::move(other), {}};
-  }
-  if (middle_.end.failure) return BoxVerdict{Verdict::Fails, middle_.end.failure};
-  if (program_.obstacle()) return BoxVerdict{Verdict::Undecided, program_.obstacle()};
-
-  displacements_ = worlds_.displacements(box_, middle_.truth);
-  farthest_ = worlds_.farthestFromMiddle(box_);
-  for (const Displacements::OfSolid& solid : displacements_.ofSolids)
-    apart_ = std::max(apart_, solid.shift.norm() + solid.turn);
+  if (auto verdict = middle_.carryOut(program_, box_))
+    return program_.stop().stop_requested() ? BoxVerdict{Verdict::Cancelled, {}} : verdict;
   const simulation::MachineErrors& errors = middle_.truth.errors;
-  kinematics_.emplace(machine(), errors);
   for (std::size_t i = 0; i < errors.axes.size() && i < machine().axes.size(); ++i) {
     const simulation::AxisErrors& axis = errors.axes[i];
     errors_ += axis.backlash;
@@ -191,123 +167,28 @@ std::optional<BoxVerdict> Proof::prepare() {
   }
   most_ = each(mostSolids_);
   least_ = each(leastSolids_);
-  for (const Step& step : middle_.steps) {
-    if (step.kind != StepKind::Measure) continue;
-    if (step.sensor != machine::Sensor::TouchProbe) return undecided("a tool touch probe measures", &step);
-    if (!step.touched) return undecided("a measuring move ends without a touch", &step);
-    if (step.part != machine::TouchWith::Ball) return undecided("the shaft of the stylus measures", &step);
-    const double signal = way(step.from, step.latched), end = way(step.from, step.end);
-    plan_.push_back({signal, end - signal});
-  }
-  Course course{middle_.steps, std::vector<bool>(middle_.steps.size())};
-  const WatchedRun again = program_.replay(middle_.truth, plan_);
-  if (again.end.cancelled) return BoxVerdict{Verdict::Cancelled, {}};
-  const auto same = aligned(course, again.steps, machine());
-  if (again.end.failure || !same) return undecided("the run cannot be replayed");
-  for (std::size_t i = 0; i < same->size(); ++i)
-    if (way((*same)[i].to, middle_.steps[i].to) > 1e-6) return undecided("the run cannot be replayed");
-  std::vector<PlannedTouch> little = plan_;
-  for (std::size_t i = 0; i < little.size(); ++i)
-    little[i].signal -= 0.01 + 0.01 / static_cast<double>(i + 1);
-  const WatchedRun otherwise = program_.replay(middle_.truth, little);
-  if (otherwise.end.failure || !addStillMoves(course, otherwise.steps, machine()))
-    return undecided("what is measured may change the course of the program, or turn a rotary axis");
-  // A control that goes up first where the next position is higher leaves this move out where it is lower, and a box
-  // may hold both. Whether the course is whole, every touch is asked later (passOn); here it is enough to try.
-  for (const double way : {-1.0, 1.0}) {
-    std::vector<PlannedTouch> far = plan_;
-    for (PlannedTouch& touch : far)
-      touch.signal += way * apart_;
-    const WatchedRun there = program_.replay(middle_.truth, far);
-    if (there.end.cancelled) return BoxVerdict{Verdict::Cancelled, {}};
-    if (!there.end.failure) static_cast<void>(addStillMoves(course, there.steps, machine()));
-  }
-  middle_.steps = course.steps;
-  optional_ = course.optional;
-  for (std::size_t i = 0; i < middle_.steps.size(); ++i) {
-    const Step& step = middle_.steps[i];
-    if (step.kind != StepKind::Measure) continue;
-    if (!touches_.empty()) {
-      const Step& before = middle_.steps[touches_.back()];
-      if (way(before.from, step.from) < onLine && way(before.to, step.to) < onLine)
-        return undecided("the same place is measured repeatedly", &step);
-    }
-    touches_.push_back(i);
-  }
   spreads_.assign(middle_.steps.size(), {});
-  // Where the axes come to stand beyond a touch must not matter.
-  std::vector<PlannedTouch> shorter = plan_;
-  for (std::size_t i = 0; i < shorter.size(); ++i)
-    shorter[i].overtravel *= 0.3 + 0.4 / static_cast<double>(i + 1);
-  const WatchedRun braked = program_.replay(middle_.truth, shorter);
-  const auto sooner = aligned(course, braked.steps, machine());
-  if (braked.end.failure || !sooner) return undecided("the way of braking decides");
-  for (std::size_t i = 0; i < middle_.steps.size(); ++i)
-    if (way((*sooner)[i].to, middle_.steps[i].to) > 1e-6)
-      return undecided("a move depends on where the axes stop after a touch", &middle_.steps[i]);
   return std::nullopt;
-}
-
-/// The cycle that a touch belongs to, by its place in the journal; one past the last for touches of no cycle.
-std::size_t Proof::cycleOf(std::size_t touch) const {
-  const auto& cycles = middle_.outcome.journal.cycles;
-  const double seconds = middle_.steps[touches_[touch]].seconds;
-  std::size_t place = 0;
-  while (place < cycles.size() &&
-         (seconds < cycles[place].startSeconds - 1e-9 || seconds > cycles[place].endSeconds + 1e-9))
-    ++place;
-  return place;
-}
-
-double Proof::sizeAround(std::size_t cycle) const {
-  std::vector<Vector3> places, ways;
-  for (std::size_t a = 0; a < touches_.size(); ++a) {
-    if (cycleOf(a) != cycle) continue;
-    const Step& step = middle_.steps[touches_[a]];
-    places.push_back(kinematics_->tableFromSpindle(step.latched, 0).translation());
-    ways.push_back((places.back() - kinematics_->tableFromSpindle(step.from, 0).translation()).normalized());
-  }
-  const auto& cycles = middle_.outcome.journal.cycles;
-  const std::string name = cycle < cycles.size() ? cycles[cycle].name : "";
-  // Of several bores each is one thing, and what follows from their middles another.
-  const std::size_t bores = name == "416" || name == "430"   ? 3
-                            : name == "418"                  ? 4
-                            : name == "401" || name == "402" ? 2
-                                                             : 0;
-  if (bores == 0 || places.size() % bores != 0) return sizeOf(places, ways);
-  const std::size_t each = places.size() / bores;
-  double size = 1e9;
-  std::vector<Vector3> middles;
-  for (std::size_t bore = 0; bore < bores; ++bore) {
-    const auto begin = static_cast<std::ptrdiff_t>(bore * each), end = static_cast<std::ptrdiff_t>((bore + 1) * each);
-    const std::vector<Vector3> own(places.begin() + begin, places.begin() + end);
-    size = std::min(size, sizeOf(own, {ways.begin() + begin, ways.begin() + end}));
-    Vector3 middle = Vector3::Zero();
-    for (const Vector3& place : own)
-      middle += place / static_cast<double>(each);
-    middles.push_back(middle);
-  }
-  if (bores == 2) return std::min(size, sizeOf(middles, {Vector3::UnitY(), Vector3::UnitY()}));
-  return std::min(size, bores == 3 ? sizeOfArc(middles) : sizeOfCrossing(middles));
 }
 
 std::optional<BoxVerdict> Proof::passOn(std::size_t touch, std::size_t step, double shift) {
   const Step& at = middle_.steps[step];
-  const std::size_t cycle = cycleOf(touch);
-  const double size = sizeAround(cycle);
-  const double bent = shift * shift / size;
+  const std::size_t cycle = middle_.cycleOf(touch);
+  const CycleSize& around = middle_.sizeAround(cycle);
+  const double size = around.size;
+  const double bent = shift * shift / around.bending(around.corner ? middle_.leverAfter(step) : 0);
   bool matters = false;
   // Controls go the long way where something is too low and the short one where it is not: to either side by itself.
   std::vector<Spread> most(middle_.steps.size());
   session::RunOutcome outcome;
   for (const double way : {-shift, shift}) {
-    std::vector<PlannedTouch> plan = plan_;
+    std::vector<PlannedTouch> plan = middle_.plan;
     plan[touch].signal += way;
     WatchedRun shifted = program_.replay(middle_.truth, plan);
     if (shifted.end.cancelled) return BoxVerdict{Verdict::Cancelled, {}};
     if (shifted.end.failure)
       return undecided(fmt::format("with this touch {:.3f} mm off: {}", shift, shifted.end.failure->why), &at);
-    const auto course = aligned({middle_.steps, optional_}, shifted.steps, machine());
+    const auto course = aligned(middle_.course(), shifted.steps, machine());
     if (!course)
       return undecided("what is measured here may change the course of the program, or turn a rotary axis", &at);
     for (std::size_t k = step + 1; k < middle_.steps.size(); ++k) {
@@ -368,7 +249,7 @@ std::optional<BoxVerdict> Proof::isClear(const Step& step, const AxisPositions& 
     const ToolShape thick = grown(shape, shiftOf(step, shift, spread.turn, s), ownOf(step));
     std::optional<simulation::Touch> touch;
     if (from == step.to) {
-      const Pose pose = kinematics_->tableFromSpindle(from, step.seconds);
+      const Pose pose = middle_.kinematics->tableFromSpindle(from, step.seconds);
       touch = ballOverlap(pose, thick, most_[s]);
       if (!touch) touch = shaftOverlap(pose, thick, most_[s]);
     } else {
@@ -388,7 +269,7 @@ std::optional<BoxVerdict> Proof::bodiesClear(const Step& step, const AxisPositio
   const Shift tool = shift + everyWay(errors_);
   const double moved = tool.any();
   const ToolShape thick = grown(shapeOf(step), tool + turned(step, spread.turn), ownOf(step));
-  const simulation::BodyClearance::Margins margins{moved, moved + farthest_};
+  const simulation::BodyClearance::Margins margins{moved, moved + middle_.farthest};
   if (auto near = program_.bodies()->nearer(motionOf(from, step), margins, thick))
     return undecided(near->text(), &step);
   return std::nullopt;
@@ -396,7 +277,7 @@ std::optional<BoxVerdict> Proof::bodiesClear(const Step& step, const AxisPositio
 
 std::optional<BoxVerdict> Proof::standsClear(const Step& step, const Spread& spread) const {
   const ToolShape shape = shapeOf(step);
-  const Pose pose = kinematics_->tableFromSpindle(step.end, step.seconds);
+  const Pose pose = middle_.kinematics->tableFromSpindle(step.end, step.seconds);
   for (std::size_t s = 0; s < solids_.size(); ++s) {
     const Shift shift = shiftOf(step, larger(spread.from, spread.to), spread.turn, s);
     const ToolShape thick = grown(shape, shift, ownOf(step));
@@ -527,7 +408,7 @@ std::optional<BoxVerdict> Proof::lookAtTouch(std::size_t index) {
       return undecided(fmt::format("the stylus or the body of the probe may touch \"{}\"", solids_[s].name), &step);
   }
   if (auto hit = bodiesClear(step, step.from, commanded)) return hit;
-  const double shift = std::max(high - plan_[touch].signal, plan_[touch].signal - low);
+  const double shift = std::max(high - middle_.plan[touch].signal, middle_.plan[touch].signal - low);
   shifts_.push_back(shift);
   inbound_ = index;
   return passOn(touch, index, shift);
@@ -547,14 +428,14 @@ std::optional<BoxVerdict> Proof::lookAtCorners() {
         further.push_back((slope > 0) == greatest);
       }
       if (!any || !seen.insert(further).second) continue;
-      std::vector<PlannedTouch> plan = plan_;
+      std::vector<PlannedTouch> plan = middle_.plan;
       for (std::size_t i = 0; i < plan.size(); ++i)
         plan[i].signal += (further[i] ? curvature : -curvature) * shifts_[i];
       const WatchedRun corner = program_.replay(middle_.truth, plan);
       if (corner.end.cancelled) return BoxVerdict{Verdict::Cancelled, {}};
       if (corner.end.failure)
         return BoxVerdict{Verdict::Undecided, Reason{corner.end.failure->why, corner.end.failure->place}};
-      const auto course = aligned({middle_.steps, optional_}, corner.steps, machine());
+      const auto course = aligned(middle_.course(), corner.steps, machine());
       if (!course) return undecided("what is measured may change the course of the program");
       for (std::size_t k = 0; k < course->size(); ++k)
         if (apart(middle_.steps[k], middle_.steps[k].to, (*course)[k].to).any() >

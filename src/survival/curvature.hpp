@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "geometry/primitives.hpp"
@@ -29,14 +31,24 @@
 ///  - The slopes of a plane through three touches are linear in the shifts: by no more than 1 / h for each touch, h the
 ///    least height of the triangle. With size <= 0.4 h they change by 3 S / h <= 1.2 q. Derivatives of the normal turn
 ///    by that and change in length by that: 1.7 q together.
-///  - A circle on a short arc of sagitta h is a parabola: its curvature k is linear in the shifts and changes, of n
-///    touches spread evenly, by the share (sum of |y_i^2 - mean|) / (sum of (y_i^2 - mean) y_i^2) * S / h: 2 of three
-///    touches, never more than 2.89, its limit for many. With size <= h / 3 that is 0.97 q, and derivatives of the
-///    middle, as 1 / k^2, change by no more than 1 / (1 - 0.97 q)^2 - 1 <= 0.23 of themselves. On longer arcs the
-///    changes are smaller against h, which is up to the diameter.
+///  - A circle: circle_curvature.hpp bounds e_i for the touches as they lie, on arcs of any length; the size is the
+///    greatest for which (1) holds.
+///  - A corner that shifts and turns, where both may cancel. Let X be the crossing of the lines through touches on two
+///    edges, w the angle between them, f = X + R v with R the turn of the first edge and a lever v; l the least
+///    distance of two touches on one edge, A the greatest distance of X from a touch, o the greatest cosine between a
+///    way and its edge, s = sin w. With k = (way . normal) / l, touch 1 has the derivative k ((a / s) along edge 2 - J
+///    R v), a the signed distance from X to touch 2 and J a quarter turn. By touch j, k changes by 2 o / l^2 at most,
+///    edges turn by 1 / l, X moves by A / (l s), a by A / (l s) + 1, 1 / s by |cos w| / (s^2 l). So the second
+///    derivatives are at most (2 o (A / s + |v|) + 3 A / s^2 + |v|) / l^2 + 1 / (l s). Of three touches, the second
+///    edge square to the first, touch 1 has (way . n) n - k (b e + u n + J R v), b and u the distances of touches 3 and
+///    1 from X, and a like sum gives (2 o (1.5 A + |v|) + 3.5 A + |v|) / l^2 + 4 / l. CornerSize takes K, the greater
+///    of each term, with l, A and s at their worst in the box: shifts of a tenth of the size 0.45 l s leave 0.91 l and
+///    0.8 s, and A is at most 1.35 A + 0.25 l, with the derivatives there. Then e_i <= (n + 1/2) K S for n touches,
+///    whatever cancels: from the middle to any point by n K S, to the mean by half of K S. 1 / ((n + 1/2) K) takes the
+///    place of the size in (1).
 ///  - Several cycles: the shares multiply. (1 - a)(1 - b) >= 1 - a - b, so what holds for one q holds for their sum.
-/// What is left to tests (tests/survival/curvature_test.cpp holds (1) itself, at all corners of the ranges): circles on
-/// arcs that are no parabolas, and a shift and a turn that follow from the same touches and cancel.
+/// tests/survival/curvature_test.cpp holds (1) itself against the fits that cycles compute, at all corners of the
+/// ranges.
 namespace probewright::survival {
 
 inline constexpr double curvature = 1.25;  ///< of what one touch does alone
@@ -47,7 +59,24 @@ inline constexpr double nearEnough =
 /// it came. A quick touch and the slow one after it are one place. A large number if nothing can bend.
 double sizeOf(const std::vector<Vector3>& touches, const std::vector<Vector3>& ways);
 
-/// The same of middles that were measured apart from each other, bores on a circle.
+/// The same of a circle through touches, with their ways.
+double sizeOfRound(const std::vector<Vector3>& touches, const std::vector<Vector3>& ways);
+
+/// Two edges of a corner: how far later places are from it matters, for they may turn with it.
+struct CornerSize {
+  std::size_t touches = 0;
+  double edge = 0;     ///< mm, l: the least distance of two touches on one edge
+  double away = 0;     ///< mm, A
+  double sine = 1;     ///< s
+  double oblique = 0;  ///< o
+
+  /// What takes the place of the size in (1) for places within `lever` of the corner, mm.
+  double at(double lever) const;
+};
+/// Of touches on two edges, two and two or two and one; nothing of others.
+std::optional<CornerSize> cornerOf(const std::vector<Vector3>& touches, const std::vector<Vector3>& ways);
+
+/// The same of middles that were measured apart from each other, bores on a circle, each by touches in pairs.
 double sizeOfArc(const std::vector<Vector3>& middles);
 
 /// The same of middles in pairs, 1 and 3, 2 and 4, through which two lines go.

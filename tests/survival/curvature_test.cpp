@@ -35,8 +35,9 @@ std::vector<Places> derivatives(const Places& places, const Places& ways, const 
 }
 
 /// The largest share of the bound that is used up, by the places themselves and by the condition (1) on derivatives:
-/// touches at `places` shift along `ways`, each by the most that the proof lets pass or a part of it.
-double used(const Places& places, const Places& ways, const Effect& effect, double size) {
+/// touches at `places` shift along `ways`, each by the most that the proof lets pass for a `size` or a part of it;
+/// `bending` takes the place of the size in the bound.
+double used(const Places& places, const Places& ways, const Effect& effect, double size, double bending) {
   const Places plain = effect(places);
   if (plain.empty()) return 0;
   const std::size_t corners = std::size_t{1} << places.size();
@@ -44,7 +45,7 @@ double used(const Places& places, const Places& ways, const Effect& effect, doub
   double worst = 0;
   for (const double shift : {nearEnough * size, 0.2 * nearEnough * size}) {
     const double step = 1e-4 * shift;
-    std::vector<double> bound(plain.size(), static_cast<double>(places.size()) * shift * shift / size);
+    std::vector<double> bound(plain.size(), static_cast<double>(places.size()) * shift * shift / bending);
     std::vector<std::vector<double>> alone(places.size(), std::vector<double>(plain.size()));
     std::vector<Places> means;
     bool refused = false;
@@ -87,13 +88,17 @@ double used(const Places& places, const Places& ways, const Effect& effect, doub
         for (std::size_t i = 0; i < places.size(); ++i) {
           if (columns[i].size() != plain.size()) continue;
           differs += (columns[i][k] - means[i][k]).norm();
-          allowed += (curvature - 1) * means[i][k].norm() + shift / size;
+          allowed += (curvature - 1) * means[i][k].norm() + shift / bending;
         }
         worst = std::max(worst, differs / allowed);
       }
     }
   }
   return worst;
+}
+
+double used(const Places& places, const Places& ways, const Effect& effect, double size) {
+  return used(places, ways, effect, size, size);
 }
 
 double used(const Places& places, const Places& ways, const Effect& effect) {
@@ -161,6 +166,76 @@ TEST(Curvature, IsBoundedForCornersAndPlanes) {
     for (const double aside : {50.0, 20.0, 5.0, 1.0})
       EXPECT_LE(used({{0, 0, 0}, {60, 0, 0}, {25, aside, 0}}, {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}}, plane), 1)
           << lever << " " << aside;
+  }
+}
+
+/// A corner far from its touches that shifts and turns: places where both nearly cancel, and others.
+TEST(Curvature, IsBoundedForCornersThatTurn) {
+  const auto corner = [](const Places& p) {
+    const Vector3 first = p[1] - p[0];
+    const Vector3 second = p.size() == 4 ? Vector3(p[3] - p[2]) : Vector3::UnitZ().cross(first);
+    Eigen::Matrix2d sides;
+    sides << first.x(), -second.x(), first.y(), -second.y();
+    const Vector2 part = sides.inverse() * Vector2(p[2].x() - p[0].x(), p[2].y() - p[0].y());
+    return Vector3(p[0] + part.x() * first);
+  };
+  double worst = 0;
+  for (const int count : {3, 4}) {
+    for (const double angle : {90.0, 60.0}) {
+      if (count == 3 && angle != 90) continue;
+      const double turn = angle * std::numbers::pi / 180;
+      const Vector3 other(std::cos(turn), std::sin(turn), 0);
+      for (const double away : {5.0, 40.0, 150.0}) {
+        for (const Vector3& lever :
+             {Vector3(away, 0, 0), Vector3(away + 20, 0, 0), Vector3(0, 30, 0), Vector3(200, 100, 0)}) {
+          const Effect effect = [&](const Places& p) -> Places {
+            const Vector3 along = (p[1] - p[0]).normalized();
+            return {corner(p) + lever.x() * along + lever.y() * Vector3::UnitZ().cross(along)};
+          };
+          Places places = {{away, 0, 0}, {away + 20, 0, 0}, away * other, (away + 20) * other};
+          Places ways = {{0, 1, 0}, {0, 1, 0}, {1, 0, 0}, {1, 0, 0}};
+          places.resize(static_cast<std::size_t>(count));
+          ways.resize(static_cast<std::size_t>(count));
+          const auto found = cornerOf(places, ways);
+          ASSERT_TRUE(found);
+          EXPECT_NEAR(found->sine, std::sin(turn), 1e-9);
+          const double share = used(places, ways, effect, sizeOf(places, ways), found->at(lever.norm()));
+          EXPECT_LE(share, 1) << count << " touches, " << angle << " degrees, " << away << ", lever "
+                              << lever.transpose();
+          worst = std::max(worst, share);
+        }
+      }
+    }
+  }
+  EXPECT_GT(worst, 0.1) << "the bound is so wide that this proves nothing";
+}
+
+/// The condition (1) without the share of what touches do alone: at the corner's own bound it must hold by itself.
+TEST(Curvature, DependsOnHowFarACornerIs) {
+  const CornerSize near =
+      *cornerOf({{10, 0, 0}, {30, 0, 0}, {0, 10, 0}, {0, 30, 0}}, {{0, 1, 0}, {0, 1, 0}, {1, 0, 0}, {1, 0, 0}});
+  EXPECT_NEAR(near.edge, 20, 1e-9);
+  EXPECT_NEAR(near.away, 30, 1e-9);
+  EXPECT_NEAR(near.oblique, 0, 1e-9);
+  EXPECT_LT(near.at(300), near.at(30));
+  // A pocket by four touches in pairs is no corner, nor is a line.
+  EXPECT_FALSE(
+      cornerOf({{9, 0, 0}, {-9, 0, 0}, {0, 9, 0}, {0, -9, 0}}, {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}}));
+  EXPECT_FALSE(cornerOf({{9, 0, 0}, {19, 0, 0}}, {{0, 1, 0}, {0, 1, 0}}));
+}
+
+/// Touches with residuals: four that lie on no circle, as in a bore that is tilted or not round.
+TEST(Curvature, IsBoundedForCirclesOnEllipses) {
+  for (const double flat : {0.99, 0.95, 0.9}) {
+    for (const double step : {30.0, 60.0, 90.0}) {
+      Places places, ways;
+      for (int i = 0; i < 4; ++i) {
+        const double angle = (10 + i * step) * std::numbers::pi / 180;
+        ways.emplace_back(std::cos(angle), std::sin(angle), 0);
+        places.emplace_back(15 * std::cos(angle), 15 * flat * std::sin(angle), 0);
+      }
+      EXPECT_LE(used(places, ways, circle, sizeOfRound(places, ways)), 1) << flat << " " << step;
+    }
   }
 }
 
@@ -254,6 +329,10 @@ TEST(Curvature, KnowsTheSizeOfWhatIsTouched) {
       sizeOf({{50, 0, 0}, {70, 0, 0}, {50 * std::sqrt(0.75), 25, 0}, {70 * std::sqrt(0.75), 35, 0}}, {y, y, x, x}),
       0.45 * 20 * 0.5, 1e-9);
   EXPECT_GT(sizeOf({{1, 2, 3}}, {x}), 1e6);
+  // A touch in the touch probe axis after a bore or a corner is one by itself.
+  EXPECT_NEAR(sizeOf({{9, 0, 0}, {0, 9, 0}, {-9, 0, 0}, {0, -9, 0}, {1, 1, 5}}, {x, y, -x, -y, -z}),
+              0.45 * 9 * std::sqrt(2.0), 1e-9);
+  EXPECT_TRUE(cornerOf({{10, 0, 0}, {30, 0, 0}, {0, 10, 0}, {0, 30, 0}, {20, 20, 5}}, {y, y, x, x, -z}));
 }
 
 }  // namespace
