@@ -12,12 +12,17 @@ namespace probewright::records {
 struct RunTrace {
   /// What changes seldom.
   struct State {
-    std::string tool;                                                ///< "5 PROBE", "T2 D1"; empty: none
-    std::string preset;                                              ///< "1", "G54"
-    Eigen::Affine3d programFromTable = Eigen::Affine3d::Identity();  ///< positions from places in the scene
+    std::string tool;    ///< "5 PROBE", "T2 D1"; empty: none
+    std::string preset;  ///< "1", "G54"
+    /// What positions of the program follow: where the tip is on the table, or the readings of the linear axes alone
+    /// (control::Following). A lathe's do not turn with its main spindle.
+    enum class Follows : std::uint8_t { Table, LinearAxes } follows = Follows::Table;
+    /// Positions of the program from places in the scene, or from the readings of X, Y and Z (0: no such axis).
+    Eigen::Affine3d programFrom = Eigen::Affine3d::Identity();
+    bool diameter = false;  ///< the control shows positions in X as diameters
     bool operator==(const State& other) const {
-      return tool == other.tool && preset == other.preset &&
-             programFromTable.matrix() == other.programFromTable.matrix();
+      return tool == other.tool && preset == other.preset && follows == other.follows && diameter == other.diameter &&
+             programFrom.matrix() == other.programFrom.matrix();
     }
   };
   /// A block begins.

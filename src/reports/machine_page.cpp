@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "reports/base64.hpp"
@@ -86,20 +85,11 @@ json machineData(const MachineScene& scene) {
 
 json machineData(const MachineReplay& replay) {
   json data = machineData(replay.scene);
-  json positions = json::array(), probes = json::array(), changes = json::array();
-  for (std::size_t axis = 0; axis < replay.scene.machine.axes.size(); ++axis) {
-    std::vector<float> values;
-    for (const machine::AxisPositions& point : replay.positions)
-      values.push_back(static_cast<float>(point[axis]));
-    // What stands all the time is one number.
-    const bool stands = std::ranges::adjacent_find(values, std::not_equal_to()) == values.end();
-    positions.push_back(stands ? json(values.empty() ? 0.0F : values.front()) : json(base64(values)));
-  }
+  json probes = json::array(), changes = json::array();
   for (const Mesh& probe : replay.probes)
     probes.push_back(shapeData(probe));
   for (const Path::ToolFrom& change : replay.changes)
     changes.push_back({change.point, change.tool});
-  data["positions"] = std::move(positions);
   data["probes"] = std::move(probes);
   data["changes"] = std::move(changes);
   return data;

@@ -21,12 +21,11 @@ struct MachineScene {
   Vector3 up = Vector3::UnitZ();  ///< in the pictures: one of the axes of the base frame
 };
 
-/// How the axes of a machine have moved on a scene's path.
+/// A machine whose axes have moved on a scene's path.
 struct MachineReplay {
   MachineScene scene;
-  std::vector<machine::AxisPositions> positions;  ///< one for each point of the path
-  std::vector<Mesh> probes;                       ///< touch probes, spindle frame
-  std::vector<Path::ToolFrom> changes;            ///< which of them is in the spindle from a point of the path on
+  std::vector<Mesh> probes;             ///< touch probes, spindle frame
+  std::vector<Path::ToolFrom> changes;  ///< which of them is in the spindle from a point of the path on
 };
 
 /// As the scripts of the pages read it; web/src/links.ts says what they make of it.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -97,7 +98,21 @@ json cameraData(const std::vector<CameraShot>& shots, const records::ReadableTex
   return data;
 }
 
-json sceneData(const Scene& scene, const records::ReadableText& readable) {
+/// Of each axis its readings on the path.
+json axesOf(const Path& path, std::size_t count) {
+  json axes = json::array();
+  for (std::size_t axis = 0; axis < count && !path.axes.empty(); ++axis) {
+    std::vector<float> values;
+    for (const machine::AxisPositions& point : path.axes)
+      values.push_back(static_cast<float>(point[axis]));
+    // What stands all the time is one number.
+    const bool stands = std::ranges::adjacent_find(values, std::not_equal_to()) == values.end();
+    axes.push_back(stands ? json(values.front()) : json(base64(values)));
+  }
+  return axes;
+}
+
+json sceneData(const Scene& scene, std::size_t axisCount, const records::ReadableText& readable) {
   json meshes = json::array();
   for (const Mesh& mesh : scene.meshes)
     meshes.push_back(meshData(mesh, readable));
@@ -133,6 +148,7 @@ json sceneData(const Scene& scene, const records::ReadableText& readable) {
             {"kinds", base64(kinds)},
             {"seconds", base64(scene.path.seconds)},
             {"toolAxes", base64(coordinates(scene.path.toolAxes))},
+            {"axes", axesOf(scene.path, axisCount)},
             {"tools", base64(changes)}}},
           {"tools", std::move(tools)},
           {"touches",
@@ -212,7 +228,9 @@ json traceData(const records::RunTrace& trace, const std::vector<machine::Axis>&
   for (const auto& state : trace.states) {
     states.push_back({{"tool", readable(state.tool)},
                       {"preset", readable(state.preset)},
-                      {"frame", matrix(Pose(state.programFromTable.matrix()))}});
+                      {"follows", state.follows == records::RunTrace::State::Follows::Table ? "table" : "axes"},
+                      {"frame", matrix(Pose(state.programFrom.matrix()))},
+                      {"diameter", state.diameter}});
   }
   for (const machine::Axis& axis : axes)
     names.push_back(axis.name);
@@ -329,7 +347,7 @@ void writeReport(const Sink& sink, const control::Journal& journal, const record
   add(",\"results\":");
   records::writeResults(add, journal, run, records::Layout::Compact);
   add(",\"scene\":");
-  add(sceneData(scene, readable).dump());
+  add(sceneData(scene, run.axes.size(), readable).dump());
   add(",\"trace\":");
   add(options.trace == nullptr ? "null" : traceData(*options.trace, run.axes, readable).dump());
   add(",\"words\":" + wordsOf(journal, readable).dump());

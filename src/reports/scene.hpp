@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/primitives.hpp"
+#include "machine/description.hpp"
 
 /// What a report draws, as plain data. All of it is given in one frame, the scene: the one in which the part stands
 /// still (the frame of the machine's table), Z up, mm. Reports know nothing of where it comes from.
@@ -34,9 +35,10 @@ enum class MoveKind : std::uint8_t { Rapid = 0, Feed = 1, Measure = 2, Jump = 3 
 /// The way of the ball's centre, or of the end of a cutter.
 struct Path {
   std::vector<Vector3f> points;
-  std::vector<MoveKind> kinds;     ///< kinds[i] is the move from points[i] to points[i + 1]
-  std::vector<float> seconds;      ///< machine clock at each point; empty: the run cannot be replayed
-  std::vector<Vector3f> toolAxes;  ///< unit, from the ball to the spindle at each point; empty: always +Z
+  std::vector<MoveKind> kinds;               ///< kinds[i] is the move from points[i] to points[i + 1]
+  std::vector<float> seconds;                ///< machine clock at each point; empty: the run cannot be replayed
+  std::vector<Vector3f> toolAxes;            ///< unit, from the ball to the spindle at each point; empty: always +Z
+  std::vector<machine::AxisPositions> axes;  ///< what they read at each point; empty: nobody knows
   /// Which of the scene's tools is in the spindle from a point on; -1: a touch probe, or none. Empty: always so.
   struct ToolFrom {
     std::uint32_t point = 0;

@@ -70,7 +70,14 @@ void TraceRecorder::thinOut() {
 std::uint32_t TraceRecorder::currentState() {
   RunTrace::State state;
   describe_(state);
-  state.programFromTable = channel_.programFromTable(channel_.axes());
+  const machine::AxisPositions axes = channel_.axes();
+  if (channel_.following() == control::Following::Kinematics) {
+    state.programFrom = channel_.programFromTable(axes);
+  } else {
+    state.follows = RunTrace::State::Follows::LinearAxes;
+    const Vector3 deviation = channel_.tipDeviation ? channel_.tipDeviation(axes) : Vector3::Zero();
+    state.programFrom = channel_.frame().inverse() * translation(deviation - channel_.toolVector);
+  }
   if (trace_.states.empty() || !(trace_.states.back() == state)) trace_.states.push_back(std::move(state));
   return static_cast<std::uint32_t>(trace_.states.size() - 1);
 }

@@ -123,7 +123,6 @@ std::shared_ptr<const reports::MachineReplay> machineReplayOf(const simulation::
   std::map<int, std::int32_t> probes;
   for (std::size_t i = 0; i < path.points.size(); ++i) {
     const simulation::PathPoint& point = path.points[i];
-    replay->positions.push_back(point.axes);
     std::int32_t probe = -1;
     if (point.tool >= 0 && truth.tools[static_cast<std::size_t>(point.tool)].kind == simulation::ToolKind::Probe) {
       const auto [known, isNew] = probes.try_emplace(point.tool, static_cast<std::int32_t>(replay->probes.size()));

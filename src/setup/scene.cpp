@@ -81,6 +81,7 @@ reports::Path pathOf(const simulation::PathRecord& record) {
     if (!path.points.empty()) path.kinds.push_back(moveOf(point.kind));
     path.points.push_back(point.tip.cast<float>());
     path.seconds.push_back(static_cast<float>(point.seconds));
+    path.axes.push_back(point.axes);
   }
   // Most machines hold the probe upright all the time: nothing to say then.
   constexpr double upright = 1 - 1e-12;

@@ -255,7 +255,9 @@ TEST(Report, HoldsWhatAReplayFollows) {
   trace.states.resize(2);
   trace.states[1].tool = "5 PROBE";
   trace.states[1].preset = "3";
-  trace.states[1].programFromTable = translation({10, 20, -400.5});
+  trace.states[1].programFrom = translation({10, 20, -400.5});
+  trace.states[1].follows = records::RunTrace::State::Follows::LinearAxes;
+  trace.states[1].diameter = true;
   trace.blocks = {{0, 0, 1, 0, {0, 0, 0}, {}}, {1.25, 0, 17, 1, {-12.34567, 0.00004, 1000}, {}}};
   trace.blocks[1].axes[0] = -2.34567;
   trace.blocks[1].axes[1] = 359.99996;
@@ -270,11 +272,30 @@ TEST(Report, HoldsWhatAReplayFollows) {
   EXPECT_EQ(replay["states"][1]["tool"], "5 PROBE");
   EXPECT_EQ(replay["states"][1]["preset"], "3");
   EXPECT_EQ(replay["states"][1]["frame"][14], -400.5);
+  EXPECT_EQ(replay["states"][0]["follows"], "table");
+  EXPECT_EQ(replay["states"][0]["diameter"], false);
+  EXPECT_EQ(replay["states"][1]["follows"], "axes");
+  EXPECT_EQ(replay["states"][1]["diameter"], true);
   EXPECT_EQ(arrayOf<float>(replay["seconds"]), (std::vector<float>{0, 1.25}));
   EXPECT_EQ(arrayOf<std::uint32_t>(replay["places"]), (std::vector<std::uint32_t>{0, 1, 0, 0, 17, 1}));
   EXPECT_EQ(arrayOf<std::int32_t>(replay["positions"]), (std::vector<std::int32_t>{0, 0, 0, -123457, 0, 10000000}));
   EXPECT_EQ(arrayOf<std::int32_t>(replay["readings"]), (std::vector<std::int32_t>{0, 0, -23457, 3600000}));
   EXPECT_TRUE(dataOf(reportHtml({}, run, {}))["trace"].is_null());
+}
+
+TEST(Report, HoldsWhatTheAxesReadOnThePath) {
+  records::RunInfo run;
+  run.axes.resize(3);
+  Scene scene;
+  scene.path.points = {{0, 0, 0}, {50, 0, -100}};
+  scene.path.axes.resize(2);
+  scene.path.axes[1].values = {50, 0, -100.25};
+  const json axes = dataOf(reportHtml({}, run, scene))["scene"]["path"]["axes"];
+  ASSERT_EQ(axes.size(), 3U);
+  EXPECT_EQ(arrayOf<float>(axes[0]), (std::vector<float>{0, 50}));
+  EXPECT_EQ(axes[1], 0) << "what stands all the time is one number";
+  EXPECT_EQ(arrayOf<float>(axes[2]), (std::vector<float>{0, -100.25F}));
+  EXPECT_TRUE(dataOf(reportHtml({}, run, {}))["scene"]["path"]["axes"].empty()) << "nobody knows";
 }
 
 TEST(Report, PacksTextsOfEveryLength) {

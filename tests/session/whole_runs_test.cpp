@@ -122,12 +122,46 @@ TEST(WholeRun, TracesWhereTheProgramStands) {
   EXPECT_NEAR(before.axes[2], -400 + 20 + 100, 1e-9) << "the spindle nose, 100 mm above the tip";
   const auto& after = trace.blocks[4];
   EXPECT_NEAR((after.position - Vector3(7, -5, 20)).norm(), 0, 1e-9) << "the same place seen from the shifted datum";
-  EXPECT_NEAR((trace.states[after.state].programFromTable * Vector3(10, -5, -380) - after.position).norm(), 0, 1e-9);
+  const auto& state = trace.states[after.state];
+  EXPECT_EQ(state.follows, records::RunTrace::State::Follows::LinearAxes) << "nothing turns on a mill with three axes";
+  EXPECT_NEAR((state.programFrom * Vector3(after.axes[0], after.axes[1], after.axes[2]) - after.position).norm(), 0,
+              1e-9);
+  EXPECT_FALSE(state.diameter);
   EXPECT_EQ(trace.states[after.state].tool, "1 PROBE");
   EXPECT_EQ(trace.states[after.state].preset, "1");
   EXPECT_GT(trace.blocks.back().seconds, after.seconds);
   options.trace = false;
   EXPECT_TRUE(runText("WAY.H", program, beliefs, machine, options).trace.blocks.empty());
+}
+
+/// What the control of a lathe shows: diameters under DIAMON, and positions that do not turn with the main spindle.
+TEST(WholeRun, TracesWhatALatheShows) {
+  ScriptedMachine machine(*machine::readMachine("lathe2c"));
+  control::Beliefs beliefs = probeAbove(ControlKind::Sinumerik840Dsl);
+  beliefs.technology = control::Technology::Turning;
+  beliefs.zeroOffsets[0].origin = {0, 0, 180};
+  RunOptions options;
+  options.trace = true;
+  const std::string program = "G54 G18 G90 DIAMON\nG0 X120 Z50\nSPOS=180\nG0 X60\nDIAMOF\nG0 X45\nM30\n";
+  const RunOutcome outcome = runText("SHAFT.MPF", program, beliefs, machine, options);
+  ASSERT_EQ(outcome.info.exit, records::ExitState::Good) << outcome.info.exitText;
+  const auto& trace = outcome.trace;
+  const auto xAxis = machine.description().axisIndex("X"), zAxis = machine.description().axisIndex("Z");
+  const auto at = [&](std::uint32_t line) {
+    return *std::ranges::find(trace.blocks, line, &records::RunTrace::Block::line);
+  };
+  for (const auto& block : trace.blocks) {
+    const auto& state = trace.states[block.state];
+    EXPECT_EQ(state.follows, records::RunTrace::State::Follows::LinearAxes) << block.line;
+    EXPECT_NEAR((state.programFrom * Vector3(block.axes[*xAxis], 0, block.axes[*zAxis]) - block.position).norm(), 0,
+                1e-9)
+        << block.line;
+    EXPECT_EQ(state.diameter, block.line < 6 && block.line > 0) << block.line;
+  }
+  EXPECT_NEAR(at(3).position.x(), 60, 1e-9) << "positions are radii, `diameter` says how they are shown";
+  EXPECT_NEAR(at(4).position.x(), 60, 1e-9) << "half a turn later";
+  EXPECT_NE(at(4).axes[*machine.description().mainSpindle], at(3).axes[*machine.description().mainSpindle]);
+  EXPECT_NEAR(at(7).position.x(), 45, 1e-9);
 }
 
 TEST(WholeRun, TracesALongProgramInBoundedMemory) {

@@ -110,7 +110,9 @@ TEST(MachinePage, OfAReportIsWrittenForTheBrowser) {
   machine.move(positions({40, 20, -300, 30, 60}), machine::Feed::at(5000));
   machine.move(positions({-90, 60, -350, 30, 60}), machine::Feed::at(5000));
   const reports::Scene scene = sceneOf(control::Journal(), machine.truth(), machine.path());
-  write("report.html", reports::reportHtml(control::Journal(), records::RunInfo(), scene));
+  records::RunInfo run;
+  run.axes = machine.description().axes;
+  write("report.html", reports::reportHtml(control::Journal(), run, scene));
   json links = json::array();
   for (const auto& [chain, kind, end] :
        {std::tuple("table", machine::Link::Chain::Table, 2), std::tuple("spindle", machine::Link::Chain::Spindle, 3)}) {

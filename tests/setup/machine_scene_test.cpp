@@ -41,14 +41,14 @@ TEST(MachineScene, HasThePlaceOfEachAxisAtEachPointOfThePath) {
   const reports::Scene scene = sceneOf(control::Journal(), machine->truth(), machine->path());
   ASSERT_TRUE(scene.machine);
   const reports::MachineReplay& replay = *scene.machine;
-  ASSERT_EQ(replay.positions.size(), scene.path.points.size());
-  EXPECT_EQ(replay.positions.back()[4], 90);
+  ASSERT_EQ(scene.path.axes.size(), scene.path.points.size());
+  EXPECT_EQ(scene.path.axes.back()[4], 90);
   // The tip is where the axes of that point put it: 3 mm over the end of the probe.
-  for (std::size_t i = 0; i < replay.positions.size(); ++i) {
+  for (std::size_t i = 0; i < scene.path.axes.size(); ++i) {
     const simulation::PathPoint& point = machine->path().points[i];
     const double below = point.tool < 0 ? 0 : point.tool == 0 ? 117 : 80;
-    const Pose tableFromSpindle = machine::baseFromTable(replay.scene.machine, replay.positions[i]).inverse() *
-                                  machine::baseFromSpindle(replay.scene.machine, replay.positions[i]);
+    const Pose tableFromSpindle = machine::baseFromTable(replay.scene.machine, scene.path.axes[i]).inverse() *
+                                  machine::baseFromSpindle(replay.scene.machine, scene.path.axes[i]);
     EXPECT_NEAR((tableFromSpindle * Vector3(0, 0, -below) - point.tip).norm(), 0, 1e-9) << i;
   }
   ASSERT_EQ(replay.changes.size(), 2U);
@@ -78,16 +78,13 @@ TEST(MachineScene, DrawsAProbeWithBodyAndStar) {
   EXPECT_NEAR(widest, 20, 1e-4);
 }
 
-TEST(MachineScene, PacksWhatStandsAsOneNumber) {
+TEST(MachineScene, PacksTheBodiesOfEachLink) {
   const auto machine = built("[machine]\nname = \"mill3\"\n");
   ASSERT_TRUE(machine);
   machine->move(positions({50, 0, -100}), Feed::rapidTraverse());
   const reports::Scene scene = sceneOf(control::Journal(), machine->truth(), machine->path());
   ASSERT_TRUE(scene.machine);
   const nlohmann::json data = reports::machineData(*scene.machine);
-  EXPECT_TRUE(data["positions"][0].is_string());
-  EXPECT_EQ(data["positions"][1], 0);
-  EXPECT_TRUE(data["positions"][2].is_string());
   // The table and all bodies, each on a link of its chain.
   EXPECT_EQ(data["bodies"].size(), machine->truth().bodies.size() + 1);
   for (const auto& body : data["bodies"])
@@ -97,7 +94,12 @@ TEST(MachineScene, PacksWhatStandsAsOneNumber) {
 TEST(MachineScene, IsLeftOutWithoutBodies) {
   simulation::Truth truth = testing_support::perfectWorld();
   simulation::VirtualMachine machine(std::move(truth));
-  EXPECT_FALSE(sceneOf(control::Journal(), machine.truth(), machine.path()).machine);
+  machine.move(positions({50, 0, -100}), Feed::rapidTraverse());
+  const reports::Scene scene = sceneOf(control::Journal(), machine.truth(), machine.path());
+  EXPECT_FALSE(scene.machine);
+  // What its axes read is known all the same.
+  ASSERT_EQ(scene.path.axes.size(), scene.path.points.size());
+  EXPECT_EQ(scene.path.axes.back()[0], 50);
 }
 
 }  // namespace

@@ -195,11 +195,15 @@ export interface CameraShot {
   evaluated: string;
 }
 
+/** What an axis reads at each point of the path; one number if it stands all the time. */
+export type Readings = Float32Array | number;
+
 export interface Scene {
   meshes: SceneMesh[];
   tools: SceneTool[];
-  /* tools: pairs of a point and the tool in the spindle from there on; -1 is a touch probe, or none. */
-  path: { points: Float32Array; kinds: Uint8Array; seconds: Float32Array; toolAxes: Float32Array; tools: Int32Array };
+  /* axes: of each axis of the machine; none: nobody knows.
+     tools: pairs of a point and the tool in the spindle from there on; -1 is a touch probe, or none. */
+  path: { points: Float32Array; kinds: Uint8Array; seconds: Float32Array; toolAxes: Float32Array; axes: Readings[]; tools: Int32Array };
   /* axes: from the ball or the tool's end to the spindle; empty: always Z. */
   touches: { indices: Uint32Array; centres: Float32Array; surfaces: Float32Array; tools: Int32Array; axes: Float32Array };
   collisions: Collision[];
@@ -215,8 +219,9 @@ export interface Scene {
 /** Where the program stood, block after block. */
 export interface Trace {
   files: string[];
-  /* frame: positions of programs from places in the scene, column by column. */
-  states: { tool: string; preset: string; frame: number[] }[];
+  /* frame, column by column: positions of programs from places in the scene (follows "table"), or from the readings of X, Y and Z ("axes").
+     diameter: the control shows positions in X as diameters. */
+  states: { tool: string; preset: string; follows: "table" | "axes"; frame: number[]; diameter: boolean }[];
   axes: string[];
   seconds: Float32Array;
   /** Of each block its file, line and state. */
@@ -275,6 +280,7 @@ function unpackScene(packed: Packed<Scene>): Scene {
       kinds: bytes(path.kinds as string),
       seconds: floats(path.seconds as string),
       toolAxes: floats(path.toolAxes as string),
+      axes: (path.axes as (string | number)[]).map((values) => (typeof values === "number" ? values : floats(values))),
       tools: integers(path.tools as string),
     },
     touches: {

@@ -2,14 +2,13 @@
 
 import { DoubleSide, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshStandardMaterial, type Object3D, Vector3 } from "three";
 
-import { type Body, bodyGeometry, headLink, type Link, linkPose, type Machine, packedFloats, tableLink } from "./links";
+import type { Readings } from "./data";
+import { type Body, bodyGeometry, headLink, type Link, linkPose, type Machine, tableLink } from "./links";
 
 type Shape = Omit<Body, keyof Link>;
 
-/** A machine and what its axes have done; as src/reports/machine_scene.hpp. */
+/** A machine whose axes move on the path; as src/reports/machine_scene.hpp. */
 export interface Replay extends Machine {
-  /** Of each axis, at each point of the path: base64, or one number if it stands. */
-  positions: (string | number)[];
   /** Touch probes, spindle frame. */
   probes: Shape[];
   /** Which of them is in the spindle from a point of the path on. */
@@ -24,7 +23,6 @@ export class MachineLayer {
   readonly table = new Group();
   private readonly links: { link: Link; group: Group }[] = [];
   private readonly probes: Group[];
-  private readonly axes: (Float32Array | number)[];
   private readonly bodies: { material: MeshStandardMaterial; link: Link }[] = [];
   private readonly edges: LineBasicMaterial[] = [];
   private place: [number, number, number] = [0, 0, 0];
@@ -34,12 +32,12 @@ export class MachineLayer {
   /** Takes what is in the scene, which lies in the frame of the table, into a group that may move. */
   constructor(
     private readonly replay: Replay,
+    private readonly axes: Readings[],
     private readonly scene: Object3D,
   ) {
     this.table.matrixAutoUpdate = false;
     this.table.add(...scene.children.filter((child) => !("isLight" in child)));
     scene.add(this.table);
-    this.axes = replay.positions.map((values) => (typeof values === "number" ? values : packedFloats(values)));
     for (const chain of ["table", "spindle"] as const)
       for (let elements = chain === "table" ? 0 : 1; elements <= replay[chain].length; ++elements) {
         const group = new Group();

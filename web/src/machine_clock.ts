@@ -1,7 +1,6 @@
 // What stood where at any time of the run: tip, tool, line, what the control showed. Knows nothing of the page.
 
-import type { Report } from "./data";
-import { packedFloats } from "./links";
+import type { Readings, Report } from "./data";
 
 type Point = [number, number, number];
 
@@ -11,11 +10,11 @@ export interface Display {
   line: number;
   tool: string;
   preset: string;
-  /** Of the tip in program coordinates. */
-  position: Point;
+  /** Of the tip in program coordinates: X, Y and Z that the machine has; X as a diameter where the control shows it so. */
+  position: { name: string; value: number; diameter: boolean }[];
   /** Readings of all axes, by their names. */
   axes: { name: string; value: number }[];
-  /** mm/min along the path. */
+  /** mm/min along the path; 0 where only rotary axes move. */
   feed: number;
 }
 
@@ -42,6 +41,8 @@ export function lastAt(times: Float32Array | number[], time: number): number {
 /** What a tool change is among the kinds of moves. */
 const jump = 3;
 
+const linear = ["X", "Y", "Z"];
+
 const mix = (a: number, b: number, part: number) => a + (b - a) * part;
 
 export class MachineClock {
@@ -49,8 +50,8 @@ export class MachineClock {
   /** The times at which cycles begin and end, alarms and touches happen. */
   readonly touches: { time: number; cycle: number; touch: number }[];
   private readonly blockTimes: Float32Array;
-  /** Readings of the axes at each point of the path, by name: one number if the axis stands. */
-  private readonly readings = new Map<string, Float32Array | number>();
+  /** Readings of the axes at each point of the path, by name; empty: nobody knows. */
+  private readonly readings: Map<string, Readings>;
 
   constructor(private readonly report: Report) {
     const { seconds } = report.scene.path;
@@ -59,11 +60,8 @@ export class MachineClock {
       .flatMap((cycle, index) => cycle.touches.map((touch, i) => ({ time: touch.time ?? NaN, cycle: index, touch: i })))
       .filter(({ time }) => Number.isFinite(time))
       .sort((a, b) => a.time - b.time);
-    const { machine } = report.scene;
-    machine?.axes.forEach(({ name }, i) => {
-      const values = machine.positions[i];
-      if (values !== undefined) this.readings.set(name, typeof values === "number" ? values : packedFloats(values));
-    });
+    const { axes } = report.scene.path;
+    this.readings = new Map(report.trace?.axes.slice(0, axes.length).map((name, i) => [name, axes[i]]));
     this.blockTimes = report.trace?.seconds ?? new Float32Array();
   }
 
@@ -116,39 +114,60 @@ export class MachineClock {
   }
 
   displayAt(time: number): Display | null {
-    const { trace, scene } = this.report;
+    const { trace } = this.report;
     if (!trace || trace.seconds.length === 0) return null;
     const block = lastAt(trace.seconds, time);
     const next = Math.min(block + 1, trace.seconds.length - 1);
     const [file, line, state] = trace.places.subarray(3 * block, 3 * block + 3);
-    const { tool, preset, frame } = trace.states[state];
+    const { tool, preset, follows, frame, diameter } = trace.states[state];
     const from = trace.seconds[block];
     const span = trace.seconds[next] - from;
     const part = span > 0 ? Math.min(1, (time - from) / span) : 0;
     const inProgram = ([x, y, z]: Point) => [0, 1, 2].map((k) => frame[k] * x + frame[4 + k] * y + frame[8 + k] * z + frame[12 + k]);
     // The block says where it began and ended as the control sees it; the path in between is that of the tip.
-    const [now, begin, end] = [time, from, from + span].map((when) => this.tipAt(when).tip);
+    const [now, begin, end] = [time, from, from + span].map((when) => this.tipAt(when));
     const ended = trace.places[3 * next + 2] === state;
-    const shown = (values: Int32Array, k: number, many: number, through: (tip: Point) => number) => {
+    const shown = (values: Int32Array, k: number, many: number, through: (place: PathPlace) => number) => {
       const [first, last] = [values[many * block + k] / 1e4, values[many * next + k] / 1e4];
       const [off, offAtEnd] = [first - through(begin), last - through(end)];
       return through(now) + (ended ? mix(off, offAtEnd, part) : off);
     };
-    const position = [0, 1, 2].map((k) => shown(trace.positions, k, 3, (tip) => inProgram(tip)[k])) as Point;
-    const { move, part: share } = this.tipAt(time);
-    const linear = ["X", "Y", "Z"];
     const axes = trace.axes.map((name, k) => {
-      const known = this.readings.get(name);
-      if (known !== undefined) return { name, value: typeof known === "number" ? known : mix(known[move], known[move + 1], share) };
+      if (this.readings.has(name)) return { name, value: this.readingAt(name, now) };
       const along = linear.indexOf(name);
       // A lathe or a table that turns: where the tip goes says little, both ends of the block do.
-      const through = along >= 0 ? (tip: Point) => tip[along] : () => 0;
+      const through = along >= 0 ? ({ tip }: PathPlace) => tip[along] : () => 0;
       return { name, value: shown(trace.readings, k, trace.axes.length, through) };
     });
-    const { points, seconds } = scene.path;
-    const way = Math.hypot(...[0, 1, 2].map((k) => points[3 * move + 3 + k] - points[3 * move + k]));
+    // Positions that follow the readings of the linear axes do not turn with a table or a main spindle.
+    const place = follows === "axes" && this.readings.size > 0 ? (at: PathPlace) => this.linearReadings(at) : ({ tip }: PathPlace) => tip;
+    const position = linear.flatMap((name, k) => {
+      if (!trace.axes.includes(name) && trace.axes.some((axis) => linear.includes(axis))) return [];
+      const value = shown(trace.positions, k, 3, (at) => inProgram(place(at))[k]);
+      const doubled = diameter && name === "X";
+      return [{ name, value: doubled ? 2 * value : value, diameter: doubled }];
+    });
+    return { file: trace.files[file], line, tool, preset, position, axes, feed: this.feedAt(time, now.move, follows) };
+  }
+
+  private readingAt(name: string, { move, part }: PathPlace): number {
+    const known = this.readings.get(name) ?? 0;
+    return typeof known === "number" ? known : mix(known[move], known[move + 1], part);
+  }
+
+  /** What X, Y and Z read; 0: there is no such axis. */
+  private linearReadings(at: PathPlace): Point {
+    return linear.map((name) => this.readingAt(name, at)) as Point;
+  }
+
+  private feedAt(time: number, move: number, follows: "table" | "axes"): number {
+    const { points, seconds, kinds } = this.report.scene.path;
     const lasts = seconds[move + 1] - seconds[move];
-    const moving = lasts > 0 && time < seconds[move + 1] && scene.path.kinds[move] !== jump;
-    return { file: trace.files[file], line, tool, preset, position, axes, feed: moving ? (60 * way) / lasts : 0 };
+    if (!(lasts > 0) || time >= seconds[move + 1] - 1e-3 || kinds[move] === jump) return 0;
+    const over = Math.hypot(...[0, 1, 2].map((k) => points[3 * move + 3 + k] - points[3 * move + k]));
+    if (this.readings.size === 0) return (60 * over) / lasts;
+    const [from, to] = [0, 1].map((part) => this.linearReadings({ tip: [0, 0, 0], axis: [0, 0, 1], tool: -1, move, part }));
+    const way = Math.hypot(...from.map((value, k) => to[k] - value));
+    return (60 * (follows === "table" && way > 0 ? over : way)) / lasts;
   }
 }

@@ -186,8 +186,9 @@ export class Replay {
     const cycleIndex = this.clock.cycleAt(this.time);
     const { results } = this.report;
     const cycle = cycleIndex < 0 ? null : results.cycles[cycleIndex];
-    const linear = ["X", "Y", "Z"];
+    const linear = shown.position.map(({ name }) => name);
     const names = [...linear, ...shown.axes.map(({ name }) => name).filter((name) => !linear.includes(name))];
+    const position = (at: (typeof shown.position)[number] | undefined) => at && h("td", { class: "number", title: at.diameter ? t("quantity_diameter") : null }, `${at.diameter ? "\u2300 " : ""}${fixed(at.value, 3, true)}`);
     const reading = (name: string) => shown.axes.find((axis) => axis.name === name)?.value;
     const span = results.truth?.clearance?.spans.find(({ from, to }) => from <= this.time && this.time <= to);
     const item = (name: string, value: string) => h("div", {}, h("dt", {}, name), h("dd", { title: value }, value));
@@ -200,7 +201,7 @@ export class Replay {
           "tbody",
           {},
           ...names.map((name, i) =>
-            h("tr", {}, h("th", { scope: "row" }, name), h("td", { class: "number" }, i < 3 ? fixed(shown.position[i], 3, true) : ""), h("td", { class: "number" }, fixed(reading(name), 3, true))),
+            h("tr", {}, h("th", { scope: "row" }, name), position(shown.position[i]) ?? h("td"), h("td", { class: "number" }, fixed(reading(name), 3, true))),
           ),
         ),
       ),

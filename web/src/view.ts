@@ -12,6 +12,7 @@ import { Replay } from "./replay";
 import { Drawing, type Marker, type Palette } from "./scene";
 import type { Selector } from "./selection";
 import { fillCard } from "./touch_card";
+import { freePlace, parted } from "./view_places";
 
 const directions = {
   top: new Vector3(0, 0, 1),
@@ -65,6 +66,7 @@ export class View {
   /** What the colours of the arrows mean. */
   private readonly colourScale = h("div", { class: "group colour-scale", hidden: true });
   private readonly card = h("aside", { class: "touch-card", hidden: true });
+  private readonly toolbarElement: HTMLElement;
   readonly replay: Replay;
   private readonly directions: Partial<Record<Direction, Vector3>>;
   private followsSelection = true;
@@ -91,7 +93,7 @@ export class View {
     showLine: (file: string, line: number) => void,
   ) {
     this.drawing = new Drawing(report);
-    this.machine = report.scene.machine ? new MachineLayer(report.scene.machine, this.drawing.scene) : null;
+    this.machine = report.scene.machine ? new MachineLayer(report.scene.machine, report.scene.path.axes, this.drawing.scene) : null;
     const { lathe } = report.scene;
     this.directions = lathe ? latheDirections : directions;
     this.camera.up.set(lathe ? 1 : 0, 0, lathe ? 0 : 1);
@@ -111,10 +113,11 @@ export class View {
       })),
       ...this.drawing.ghosts.map(({ at, kind }) => ({ at, label: h("span", { class: `label ghost ${kind}` }, h("b", {}, t(kind))) })),
     ];
+    this.toolbarElement = this.toolbar();
     this.element = h(
       "section",
       { class: "card view", id: "view", "aria-label": t("view") },
-      h("div", { class: "stage-area" }, this.stage, this.toolbar(), this.legend(), this.scaleBar, this.card),
+      h("div", { class: "stage-area" }, this.stage, this.toolbarElement, this.legend(), this.scaleBar, this.card),
       this.replay.element,
     );
     selector.listen((selection, source) => this.showSelection(selection?.cycle ?? null, selection?.touch ?? null, source));
@@ -217,7 +220,7 @@ export class View {
     const size = { width: this.stage.clientWidth, height: this.stage.clientHeight };
     const corners = cycle === null ? this.drawing.focusCorners : this.drawing.cornersOfCycle(cycle);
     this.setSize(width, height);
-    if (corners.length > 0) this.zoomTo(corners);
+    if (corners.length > 0) this.zoomTo(corners, "whole");
     this.renderer.render(this.drawing.scene, this.camera);
     const canvas = this.renderer.domElement;
     const still = h("canvas", { width: canvas.width, height: canvas.height });
@@ -264,8 +267,8 @@ export class View {
     this.draw();
   }
 
-  /** Moves and zooms so that these points fill the view, with room for what lies over its edges. */
-  private zoomTo(points: Vector3[]) {
+  /** Moves and zooms so that these points fill the view, with room for what lies over its edges, beside the card or as if there were none. */
+  private zoomTo(points: Vector3[], how: "beside" | "whole" = "beside") {
     if (!this.controls) return;
     this.controls.update();
     this.camera.updateMatrixWorld();
@@ -284,7 +287,13 @@ export class View {
     this.controls.target.add(shift);
     this.camera.position.add(shift);
     this.filledBy = points;
-    this.camera.zoom = Math.min((2 * this.camera.right) / (1.15 * width), 2 / (1.35 * height));
+    const { zoom, middle } = freePlace({ width, height }, this.camera.right, this.stage, how === "beside" && !this.card.hidden ? [this.toolbarElement, this.card] : null);
+    this.camera.zoom = zoom;
+    // The middle of what is shown goes to the middle of the free place.
+    const off = new Vector3();
+    [middle.x, middle.y].forEach((place, column) => off.addScaledVector(new Vector3().setFromMatrixColumn(this.camera.matrixWorld, column), -place / zoom));
+    this.controls.target.add(off);
+    this.camera.position.add(off);
     this.camera.updateProjectionMatrix();
     this.controls.update();
     this.draw();
@@ -302,6 +311,7 @@ export class View {
   private render() {
     this.renderer!.render(this.drawing.scene, this.camera);
     this.showScale();
+    parted(this.standing, (at) => this.onScreen(at).x);
     for (const { at, label } of [...this.shown, ...this.standing, ...this.arrowEnds]) {
       const { x, y } = this.onScreen(at);
       label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
@@ -373,17 +383,19 @@ export class View {
       const { move, part } = this.replay.clock.tipAt(time);
       this.machine?.show(move, move + 1, part);
     }
-    if (this.followsSelection && cycle !== null && source !== "view" && source !== "replay") {
-      const corners = this.drawing.cornersOfCycle(cycle);
-      if (corners.length > 0) this.zoomTo(corners.map((point) => this.machine?.onScene(point) ?? point));
-    }
     this.drawing.deviations.show(cycle);
     this.drawArrows();
     fillCard(this.card, this.report, this.selector, marker !== undefined && marker.tool >= 0);
-    // The card must not lie over what it tells about.
+    const zooms = this.followsSelection && cycle !== null && source !== "view" && source !== "replay";
+    const corners = zooms ? this.drawing.cornersOfCycle(cycle) : [];
+    // The card must not lie over what it tells about: what is zoomed to goes beside it.
+    if (corners.length > 0) {
+      this.card.classList.remove("left");
+      this.zoomTo(corners.map((point) => this.machine?.onScene(point) ?? point));
+    }
     const points = marker ? [marker] : ofCycle;
     const middle = points.reduce((sum, { centre }) => sum + this.onScreen(centre).x / points.length, 0);
-    this.card.classList.toggle("left", middle > 0.56 * this.stage.clientWidth);
+    if (corners.length === 0) this.card.classList.toggle("left", middle > 0.56 * this.stage.clientWidth);
     this.draw();
   }
 
@@ -425,7 +437,7 @@ export class View {
         "div",
         { class: "group" },
         toggle(t("xray"), false, (on) => this.drawing.showXray(on)),
-        toggle(t("paths"), true, (on) => this.drawing.showPath(on)),
+        ...(this.hasPath ? [toggle(t("paths"), true, (on) => this.drawing.showPath(on))] : []),
         toggle(t("touchesToggle"), true, (on) => this.drawing.showTouches(on)),
         ...(this.drawing.hasFixtures ? [toggle(t("fixtures"), true, (on) => this.drawing.showFixtures(on))] : []),
         ...this.machineButtons(toggle),
@@ -456,6 +468,11 @@ export class View {
     return [drawn, standing];
   }
 
+  /** A blind run tells no way. */
+  private get hasPath(): boolean {
+    return this.report.scene.path.points.length > 3;
+  }
+
   private legend(): HTMLElement {
     const item = (kind: string, text: string) => h("span", {}, h("i", { class: `swatch ${kind}` }), text);
     const { scene } = this.report;
@@ -464,9 +481,7 @@ export class View {
     return h(
       "div",
       { class: "legend" },
-      item("rapid", t("rapid")),
-      item("feed", t("feed")),
-      item("measure", t("measuring")),
+      ...(this.hasPath ? [item("rapid", t("rapid")), item("feed", t("feed")), item("measure", t("measuring"))] : []),
       ...(["good", "rework", "scrap", "none", "alarm"] as const).filter((state) => states.has(state)).map((state) => item(`dot ${state}`, t(words[state]))),
       scene.collisions.length > 0 && item("collision", t("collision")),
     );

@@ -271,6 +271,7 @@ void run(const RunRequest& request, const execution::sinumerik::GlobalUserData& 
   TraceRecorder trace(control.channel, [&](records::RunTrace::State& state) {
     state.tool = describedTool(control.tool);
     state.preset = zeroOffset(control.frames.settable);
+    state.diameter = control.diameter;
   });
   execution::InterpreterOptions interpreterSettings = interpreterOptionsOf(options);
   recordBlocks(interpreterSettings, trace, options);
