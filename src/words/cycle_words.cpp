@@ -48,9 +48,54 @@ std::string ofCatalogue(DialogLanguage language, std::string_view english, const
   return text;
 }
 
+namespace {
+
+/// What the table says of a piece of a code: "outside diameter", or "D 1", a meaning and its number. Empty: nothing.
+std::vector<std::string> wordsOfPiece(std::string_view english) {
+  const auto whole = table().find(english);
+  if (whole != table().end()) return whole->get<std::vector<std::string>>();
+  const std::size_t blank = english.rfind(' ');
+  if (blank == std::string_view::npos || english.find_first_not_of("0123456789", blank + 1) != std::string_view::npos)
+    return {};
+  const auto found = table().find(english.substr(0, blank));
+  if (found == table().end()) return {};
+  auto words = found->get<std::vector<std::string>>();
+  for (std::string& word : words)
+    word += english.substr(blank);
+  return words;
+}
+
+/// A parameter of digits with what they choose: "measuring variant: front edge, measure only". What is chosen may hold
+/// a comma itself, so the longest piece that the table knows counts.
+std::vector<std::string> wordsOfCode(std::string_view english) {
+  constexpr std::string_view colon = ": ", comma = ", ";
+  const std::size_t end = english.find(colon);
+  if (end == std::string_view::npos) return {};
+  std::vector<std::string> texts = wordsOfPiece(english.substr(0, end));
+  if (texts.size() != columns.size()) return {};
+  std::string_view rest = english.substr(end + colon.size());
+  for (bool first = true; !rest.empty(); first = false) {
+    std::size_t piece = rest.size();
+    std::vector<std::string> words = wordsOfPiece(rest);
+    while (words.empty()) {
+      piece = piece == 0 ? std::string_view::npos : rest.rfind(comma, piece - 1);
+      if (piece == std::string_view::npos) return {};
+      words = wordsOfPiece(rest.substr(0, piece));
+    }
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const bool wide = columns.at(i) == DialogLanguage::Chinese;
+      texts.at(i) += (wide ? (first ? "\uff1a" : "\uff0c") : (first ? ": " : ", ")) + words.at(i);
+    }
+    rest.remove_prefix(std::min(rest.size(), piece + comma.size()));
+  }
+  return texts;
+}
+
+}  // namespace
+
 std::vector<std::string> inOtherLanguages(std::string_view english) {
-  const auto found = table().find(english);
-  return found == table().end() ? std::vector<std::string>() : found->get<std::vector<std::string>>();
+  std::vector<std::string> words = wordsOfPiece(english);
+  return words.empty() ? wordsOfCode(english) : words;
 }
 
 }  // namespace probewright::words

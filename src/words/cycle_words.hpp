@@ -18,8 +18,8 @@ std::string ofCatalogue(DialogLanguage language, std::string_view english);
 /// The same with values in the places of {0}, {1}.
 std::string ofCatalogue(DialogLanguage language, std::string_view english, const std::vector<std::string>& values);
 
-/// In German, Russian, Swedish, Chinese and Polish, as the tables of phrases have them; empty if the table does not
-/// know it.
+/// In German, Russian, Swedish, Chinese and Polish, as the tables of phrases have them; also of a code with what its
+/// digits choose: "measuring variant: front edge, measure only". Empty if the table does not know a part of it.
 std::vector<std::string> inOtherLanguages(std::string_view english);
 
 }  // namespace probewright::words

@@ -1,10 +1,12 @@
 #include "words/words.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -162,6 +164,32 @@ TEST(Words, EveryDescriptionOfTheCatalogueHasItsWords) {
     EXPECT_TRUE(foreign(words[1])) << words[1];
     EXPECT_TRUE(foreign(words[3])) << words[3];
   }
+  // Of what the digits of a code choose a report holds the words as well.
+  int codes = 0;
+  for (const cycles::CycleDefinition* cycle : cycles::cyclesOf(control::ControlKind::Sinumerik840Dsl)) {
+    for (const cycles::Parameter& parameter : cycle->parameters) {
+      for (const cycles::CodeDigit& digit : parameter.digits) {
+        for (const cycles::Choice& choice : digit.choices) {
+          const std::string text = cycles::codeText(parameter, choice.value * std::pow(10, digit.place - 1));
+          if (text.empty()) continue;
+          const auto words = inOtherLanguages(fmt::format("{}: {}", parameter.meaning, text));
+          ASSERT_EQ(words.size(), others.size()) << cycle->name << ' ' << parameter.name << ": " << text;
+          EXPECT_THAT(words[0], ::testing::HasSubstr(ofCatalogue(others[0], choice.meaning))) << text;
+          ++codes;
+        }
+      }
+    }
+  }
+  EXPECT_GT(codes, 200);
+  const auto variant =
+      inOtherLanguages("measuring variant: outside diameter, correct the tool, with reversal of the turning spindle");
+  EXPECT_EQ(variant.at(0), "Messvariante: Au\u00dfendurchmesser, Werkzeug korrigieren, mit Umschlag der Drehspindel");
+  EXPECT_EQ(variant.at(3),
+            "\u6d4b\u91cf\u53d8\u4f53\uff1a\u5916\u5f84\uff0c\u4fee\u6b63\u5200\u5177\uff0c\u8f66\u524a\u4e3b\u8f74"
+            "\u53cd\u8f6c");
+  EXPECT_EQ(inOtherLanguages("tool offset to correct: D 1, not inverted, length 1").at(0),
+            "zu korrigierende Werkzeugkorrektur: D 1, nicht invertiert, L\u00e4nge 1");
+  EXPECT_TRUE(inOtherLanguages("measuring variant: what nobody knows").empty());
   // Numbers and names of data are those of the English text.
   static const std::regex data(
       R"((S_[A-Z]+[0-9]*|_AMODE|MP[0-9]+(\.[0-9])?|SD [0-9]+|Q[0-9]{3}|QS[0-9]+|DATA450\.KD|TOOL\.T))");
