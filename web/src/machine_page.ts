@@ -42,7 +42,10 @@ function axisRow(data: Data, axis: number, read: () => number[], set: (axis: num
   const step = rotary ? 1 : Math.max(1, Math.round((high - low) / 500));
   const slider = h("input", { type: "range", min: low, max: high, step: "any", "aria-label": `Axis ${name}`, id: `axis-${name}` });
   const field = h("input", { type: "number", min: low, max: high, step: "any", "aria-label": `Position of ${name}` });
-  const go = (value: number) => set(axis, Math.min(high, Math.max(low, value)));
+  const text = (value: number) => value.toFixed(3).replace(/\.?0+$/, "").replace(/^-0$/, "0");
+  // Without end stops 270 is -90, with them the axis stops at its end.
+  const within = (value: number) => (modulo && Math.abs(value) > 180 ? value - 360 * Math.round(value / 360) : Math.min(high, Math.max(low, value)));
+  const go = (value: number) => set(axis, within(value));
   slider.addEventListener("input", () => go(Number(slider.value)));
   // Steps of a size that is seen; with Shift ten of them.
   slider.addEventListener("keydown", (event) => {
@@ -51,11 +54,15 @@ function axisRow(data: Data, axis: number, read: () => number[], set: (axis: num
     event.preventDefault();
     go(read()[axis] + sign * step * (event.shiftKey ? 10 : 1));
   });
-  field.addEventListener("change", () => go(Number(field.value)));
+  // What is no number moves nothing; afterwards the field says where the axis is.
+  field.addEventListener("change", () => {
+    if (Number.isFinite(field.valueAsNumber)) go(field.valueAsNumber);
+    field.value = text(read()[axis]);
+  });
   const show = () => {
     const value = read()[axis];
     slider.value = String(value);
-    if (document.activeElement !== field) field.value = value.toFixed(3).replace(/\.?0+$/, "").replace(/^-0$/, "0");
+    if (document.activeElement !== field) field.value = text(value);
   };
   const element = h(
     "div",

@@ -108,6 +108,27 @@ test("by keyboard alone, in the dark, on a narrow screen", async () => {
   await page.close();
 });
 
+test("what is typed moves the axis as far as it goes, and the field says where it is", async () => {
+  const { page, problems } = await open("mill5-table-table.html");
+  const type = async (axis, value) => {
+    const field = `[data-axis="${axis}"] input[type=number]`;
+    await page.click(field, { clickCount: 3 });
+    await page.keyboard.press("Backspace");
+    await page.keyboard.type(value);
+    await page.keyboard.press("Enter");
+    return [await page.$eval(field, (element) => element.value), await page.$eval(`#axis-${axis}`, (slider) => slider.value)];
+  };
+  assert.deepEqual(await type("A", "35.5"), ["35.5", "35.5"]);
+  assert.deepEqual(await type("A", "999"), ["120", "120"]);
+  // Nothing, or no number, moves nothing.
+  assert.deepEqual(await type("A", ""), ["120", "120"]);
+  assert.deepEqual(await type("A", "-"), ["120", "120"]);
+  // An axis without end stops goes on.
+  assert.deepEqual(await type("C", "270"), ["-90", "-90"]);
+  assert.deepEqual(problems, []);
+  await page.close();
+});
+
 test("says which way plus is", async () => {
   const { page } = await open("mill5-table-table.html");
   const text = await page.$eval('[data-axis="C"]', (row) => row.innerText);
