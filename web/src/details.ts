@@ -3,6 +3,7 @@
 import { type Cycle, type Report, type ResultValue, touchDeviation, type Triple } from "./data";
 import { fileName, fixed, h, icon, quantity, unitText } from "./dom";
 import { characteristicOf, meaningOf, repeatsOf, screenOf } from "./features";
+import { hyphenated } from "./hyphens";
 import { t } from "./language";
 import { formPlot, histogram, positionPlot, repeatedTouches } from "./plots";
 import type { Selector } from "./selection";
@@ -11,10 +12,18 @@ import { description, phrase } from "./phrases";
 
 export const outcomeText = (outcome: string) => (outcome === "touched" ? t("touched") : outcome);
 
+/** "1\u20135", or "1, 6, 11" where there are others between them. */
+function listed(numbers: number[]): string {
+  const [first, last] = [numbers[0], numbers[numbers.length - 1]];
+  if (last - first === numbers.length - 1) return `${first}\u2013${last}`;
+  const most = 8;
+  return numbers.length > most ? `${numbers.slice(0, most - 1).join(", ")}, \u2026 ${last}` : numbers.join(", ");
+}
+
 export function plotsOf({ results }: Report, index: number): HTMLElement[] {
   const cycle = results.cycles[index];
   const repeated = repeatedTouches(cycle).map(({ numbers, deviations }) =>
-    histogram(`${t("repeatedTouches")} ${numbers[0]}\u2013${numbers[numbers.length - 1]}`, deviations),
+    histogram(`${t("repeatedTouches")} ${listed(numbers)}`, deviations),
   );
   const again = cycle.results
     .filter((result) => result.main && result.verdict !== "none")
@@ -40,7 +49,7 @@ export function writeLine(write: Write): HTMLElement {
 }
 
 const point = (triple: Triple | undefined) =>
-  h("td", { class: "number point", title: triple?.join(", ") }, triple ? triple.map((x) => fixed(x, 3)).join("  ") : "\u2013");
+  h("td", { class: "number point", title: triple?.join(", ") }, triple ? triple.map((x) => fixed(x, 3)).join(" ") : "\u2013");
 
 function touchTable(cycle: Cycle, index: number, selector: Selector): HTMLElement {
   const known = cycle.touches.some((touch) => touch.truth);
@@ -85,7 +94,7 @@ function touchTable(cycle: Cycle, index: number, selector: Selector): HTMLElemen
     h(
       "div",
       { class: "scroll", tabindex: 0 },
-      h("table", { class: "inner" }, h("thead", {}, h("tr", {}, ...heads.map((head) => h("th", { scope: "col" }, head)))), h("tbody", {}, ...rows)),
+      h("table", { class: "inner" }, h("thead", {}, h("tr", {}, ...heads.map((head) => h("th", { scope: "col" }, hyphenated(head))))), h("tbody", {}, ...rows)),
     ),
   );
 }

@@ -40,33 +40,67 @@ export function facts(report: Report): [string, string][] {
   return all.filter((pair): pair is [string, string] => !!pair[1]);
 }
 
+/** A cycle with more lines may go on on the next page. */
+const longGroup = 12;
+
 /** A text inside of a style sheet. */
 const quoted = (text: string) => `"${text.replace(/[\\"]/g, "\\$&").replace(/[\n\r\f]/g, " ").replace(/</g, "\\3c ")}"`;
 
+const footFont = "8pt sans-serif";
+/** Of the 186 mm of a page's foot the middle has this much, the left end that. */
+const [middleWide, leftWide] = [74, 54];
+
+/** Texts one after the other, each cut short as far as all of them take more than this many mm in the foot of a page. */
+function fitted(texts: (string | undefined)[], mm: number): string {
+  const context = document.createElement("canvas").getContext("2d");
+  const all = texts.filter((text): text is string => !!text);
+  if (!context || all.length === 0) return all.join("   ").slice(0, mm / 2);
+  context.font = footFont;
+  const wide = (text: string) => (context.measureText(text).width * 25.4) / 96;
+  const cut = (text: string, most: number) => {
+    if (wide(text) <= most) return text;
+    const letters = [...text];
+    while (letters.length > 0 && wide(`${letters.join("")}\u2026`) > most) letters.pop();
+    return `${letters.join("").trimEnd()}\u2026`;
+  };
+  // What is short leaves its place to the others.
+  let [free, left] = [mm - (all.length - 1) * wide("   "), all.length];
+  const order = all.map((_, i) => i).sort((a, b) => wide(all[a]) - wide(all[b]));
+  for (const i of order) {
+    all[i] = cut(all[i], free / left);
+    free -= wide(all[i]);
+    left -= 1;
+  }
+  return all.join("   ");
+}
+
 function pageStyle(report: Report): string {
   const { run } = report.results;
-  const left = [run.job?.part ?? run.part.name, run.job?.order, run.job?.serial].filter(Boolean).join("   ");
-  const middle = [run.programs.length > 0 ? fileName(run.programs[0]) : "", startTime(report)].filter(Boolean).join("   ");
+  const left = fitted([run.job?.part ?? run.part.name, run.job?.order, run.job?.serial], leftWide);
+  const middle = fitted([run.programs.length > 0 ? fileName(run.programs[0]) : "", startTime(report)], middleWide);
+  const box = (place: string, content: string) => `@bottom-${place} { content: ${content}; font: ${footFont}; white-space: nowrap; }`;
   return `@page { size: A4; margin: 12mm 12mm 16mm;
-    @bottom-left { content: ${quoted(left)}; font: 8pt sans-serif; }
-    @bottom-center { content: ${quoted(middle)}; font: 8pt sans-serif; }
-    @bottom-right { content: ${quoted(`${t("page")} `)} counter(page) " / " counter(pages); font: 8pt sans-serif; } }`;
+    ${box("left", quoted(left))}
+    ${box("center", quoted(middle))}
+    ${box("right", `${quoted(`${t("page")} `)} counter(page) " / " counter(pages)`)} }`;
 }
 
 function table(report: Report): HTMLElement {
   const { cycles } = report.results;
   const truth = hasTruth(report);
   const heads = sheetHeads(truth);
+  // Widths are the columns' business: a name has as many lines as it needs.
   const asCell = (element: HTMLElement | null) => element && h("td", { class: element.className, title: null }, ...element.childNodes);
   return h(
     "table",
-    { class: "paper-sheet" },
+    { class: `paper-sheet ${truth ? "with-truth" : ""}` },
+    h("colgroup", {}, ...heads.map(([kind]) => h("col", { class: kind.split(" ").at(-1)! }))),
     h("thead", {}, h("tr", {}, ...heads.map(([kind, text]) => h("th", { class: kind }, text)))),
     ...groupsOf(report.results).map(({ cycle: index, rows, state }) => {
       const cycle = cycles[index];
       return h(
         "tbody",
-        { class: state },
+        { class: `${state} ${rows.length + cycle.writes.length > longGroup ? "long" : ""}` },
         h(
           "tr",
           { class: "paper-cycle" },
@@ -77,8 +111,7 @@ function table(report: Report): HTMLElement {
           ),
         ),
         ...rows.map((row, i) => h("tr", { class: isBad(cycle.results[row].verdict) ? cycle.results[row].verdict : "" }, ...resultCells(cycle.results[row], `${index + 1}.${i + 1}`, truth).map(asCell))),
-        (cycle.alarm || cycle.writes.length > 0) &&
-          h("tr", {}, h("td", { colspan: heads.length }, cycle.alarm && h("p", { class: "note alarm" }, icon("stop"), translated(cycle.alarm)), ...cycle.writes.map(writeLine))),
+        ...[cycle.alarm && h("p", { class: "note alarm" }, icon("stop"), translated(cycle.alarm)), ...cycle.writes.map(writeLine)].flatMap((note) => note ? [h("tr", {}, h("td", { colspan: heads.length }, note))] : []),
       );
     }),
   );

@@ -74,6 +74,31 @@ function circleThrough(points: [number, number][]): [number, number, number] {
   return [mx + cx, my + cy, Math.hypot(cx, cy) + Math.sqrt((xx + yy) / points.length)];
 }
 
+/** Centre and radius of the sphere through points by least squares; null if they lie in a plane. */
+function sphereThrough(points: Point[]): { centre: Point; radius: number } | null {
+  // About the mean: x^2 + y^2 + z^2 = 2 c x + e, with e from the mean of both sides.
+  const mean = meanOf(points);
+  const away = points.map((point) => point.map((value, k) => value - mean[k]) as Point);
+  const squares = away.map(([x, y, z]) => x * x + y * y + z * z);
+  const square = squares.reduce((sum, value) => sum + value, 0) / points.length;
+  const rows = [0, 1, 2].map((i) => [
+    ...[0, 1, 2].map((k) => away.reduce((sum, point) => sum + 2 * point[i] * point[k], 0)),
+    away.reduce((sum, point, n) => sum + point[i] * (squares[n] - square), 0),
+  ]);
+  for (let i = 0; i < 3; ++i) {
+    const pivot = [0, 1, 2].slice(i).reduce((best, row) => (Math.abs(rows[row][i]) > Math.abs(rows[best][i]) ? row : best), i);
+    [rows[i], rows[pivot]] = [rows[pivot], rows[i]];
+    if (Math.abs(rows[i][i]) < 1e-9 * square * points.length) return null;
+    for (let row = 0; row < 3; ++row) {
+      if (row === i) continue;
+      const factor = rows[row][i] / rows[i][i];
+      rows[row] = rows[row].map((value, k) => value - factor * rows[i][k]);
+    }
+  }
+  const off = rows.map((row, i) => row[3] / row[i]);
+  return { centre: mean.map((value, k) => value + off[k]) as Point, radius: Math.sqrt(square + off.reduce((sum, value) => sum + value * value, 0)) };
+}
+
 /** How far the limits of a cycle's diameter lie from the circle that was measured, mm along the radius. */
 function radialLimits(cycle: Cycle): number[] {
   const diameters = cycle.results.filter(({ characteristic, lowerLimit, upperLimit }) => characteristic?.quantity === "diameter" && (lowerLimit != null || upperLimit != null));
@@ -168,15 +193,20 @@ function linePlot(cycle: Cycle, fit: Fit): HTMLElement | null {
   return strip(t("straightness"), fit, places, [`${name} ${fixed(low, 1)}`, `${name} ${fixed(high, 1)}`]);
 }
 
+const mostTexts = 12;
+
 /** Where the points lie, seen against `normal`; a ring shows by its size and sign how far a point lies off. */
 function map(title: string, cycle: Cycle, fit: Fit): HTMLElement | null {
   const samples = samplesOf(cycle, fit);
   if (samples.length < 3) return null;
   const points = samples.map(({ at }) => at);
-  const normal = fit.shape === "sphere" ? 2 : widest(points)[2];
+  const sphere = fit.shape === "sphere" ? sphereThrough(points) : null;
+  if (fit.shape === "sphere" && !sphere) return null;
+  const normal = sphere ? 2 : widest(points)[2];
   const [across, up] = normal === 2 ? [0, 1] : normal === 1 ? [0, 2] : [1, 2];
-  const centre = meanOf(points);
-  const reach = Math.max(...points.map((p) => Math.max(Math.abs(p[across] - centre[across]), Math.abs(p[up] - centre[up]))), 1e-6);
+  const centre = sphere?.centre ?? meanOf(points);
+  // A sphere is drawn to scale: its points lie within its outline.
+  const reach = sphere?.radius ?? Math.max(...points.map((p) => Math.max(Math.abs(p[across] - centre[across]), Math.abs(p[up] - centre[up]))), 1e-6);
   const most = Math.max(...samples.map(({ residual }) => Math.abs(residual)), 1e-9);
   const names = "XYZ";
   return frame(
@@ -185,7 +215,7 @@ function map(title: string, cycle: Cycle, fit: Fit): HTMLElement | null {
     box(
       size,
       size,
-      fit.shape === "sphere" && svg("circle", { cx: middle, cy: middle, r: 78, class: "nominal" }),
+      sphere && svg("circle", { cx: middle, cy: middle, r: 74, class: "nominal" }),
       svg("path", { d: `M${middle} 20V${size - 20}M20 ${middle}H${size - 20}`, class: "grid" }),
       ...samples.flatMap(({ at, residual, number }) => {
         const x = middle + (74 * (at[across] - centre[across])) / reach;
@@ -197,10 +227,11 @@ function map(title: string, cycle: Cycle, fit: Fit): HTMLElement | null {
             svg("title", {}, `${number}: ${microns(residual)}`),
           ),
           text(x, y + 4, String(number), "count"),
-          text(x, y + 28, microns(residual), "scale"),
+          // Of many only the size is drawn.
+          ...(samples.length <= mostTexts ? [text(x, y + 28, microns(residual), "scale")] : []),
         ];
       }),
-      text(size - 8, size - 6, `${names[across]}${names[up]}`, "end"),
+      text(size - 8, 12, `${names[across]}${names[up]}`, "end"),
     ),
   );
 }
@@ -289,17 +320,47 @@ export function histogram(title: string, values: number[], limits?: { lower?: nu
   );
 }
 
-/** Touches of a cycle that went for the same point from the same side, three or more: their deviations. */
-export function repeatedTouches(cycle: Cycle): { numbers: number[]; deviations: number[] }[] {
-  const places = new Map<string, { numbers: number[]; deviations: number[] }>();
+/** By its name in ISO 841. */
+const isLinear = (name: string) => /^[XYZUVW]/i.test(name);
+
+/** Positions of rotary axes: another one turns what is touched. */
+const rotaryPlace = ({ axes }: Touch): string =>
+  Object.entries(axes ?? {})
+    .filter(([name]) => !isLinear(name))
+    .map(([name, value]) => `${name}${Math.round(100 * (value ?? 0)) + 0}`)
+    .join(" ");
+
+/** How far two touches lie apart sideways, as the linear axes tell: of a point that is probed again only how deep it lies differs. */
+function sideways(first: Touch, second: Touch, difference: number): number {
+  const way = Object.entries(first.axes ?? {})
+    .filter(([name]) => isLinear(name))
+    .map(([name, value]) => (second.axes?.[name] ?? 0) - (value ?? 0));
+  return Math.abs(Math.hypot(...way) - Math.abs(difference));
+}
+
+interface Repeated {
+  numbers: number[];
+  deviations: number[];
+}
+
+/** Touches that went for the same point of the machine from the same side, the rotary axes standing alike, three or more: their deviations. */
+export function repeatedTouches(cycle: Cycle): Repeated[] {
+  // mm; the preset that a cycle corrects between two touches moves the point.
+  const samePlace = 0.01;
+  const places = new Map<string, (Repeated & { first: Touch })[]>();
   cycle.touches.forEach((touch, i) => {
     const deviation = touchDeviation(touch);
     if (deviation === null) return;
-    const key = [...touch.target, ...touch.direction].map((x) => x?.toFixed(4)).join(" ");
-    const place = places.get(key) ?? { numbers: [], deviations: [] };
-    place.numbers.push(i + 1);
-    place.deviations.push(deviation);
-    places.set(key, place);
+    const key = `${[...touch.target, ...touch.direction].map((x) => x?.toFixed(4)).join(" ")} ${rotaryPlace(touch)}`;
+    const there = places.get(key) ?? [];
+    places.set(key, there);
+    const same = there.find(({ first, deviations }) => sideways(first, touch, deviation - deviations[0]) < samePlace);
+    if (same) {
+      same.numbers.push(i + 1);
+      same.deviations.push(deviation);
+    } else {
+      there.push({ first: touch, numbers: [i + 1], deviations: [deviation] });
+    }
   });
-  return [...places.values()].filter(({ numbers }) => numbers.length >= 3);
+  return [...places.values()].flat().filter(({ numbers }) => numbers.length >= 3);
 }

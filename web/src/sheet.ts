@@ -4,6 +4,7 @@ import type { Cycle, Report, ResultValue } from "./data";
 import { detailsOf, writeLine } from "./details";
 import { duration, h, icon, quantity, unitText } from "./dom";
 import { characteristicOf, type Filter, type Group, groupsOf, isBad, nameOf, noFilter, passing, shareOf } from "./features";
+import { hyphenated } from "./hyphens";
 import { t } from "./language";
 import { translated } from "./phrases";
 import type { Selector } from "./selection";
@@ -46,7 +47,7 @@ export function resultCells(result: ResultValue, number: string, truth: boolean)
     h(
       "span",
       { role: "cell", class: "characteristic", title: result.meaning },
-      h("span", {}, characteristicOf(result)),
+      h("span", {}, hyphenated(characteristicOf(result))),
       h("code", {}, result.name),
     ),
     cell("number nominal-value", value(result.nominal), result.nominal, t("nominal")),
@@ -70,17 +71,20 @@ export function resultCells(result: ResultValue, number: string, truth: boolean)
   ];
 }
 
-export const sheetHeads = (truth: boolean): [string, string][] => [
-  ["no", t("number")],
-  ["characteristic", t("characteristic")],
-  ["number nominal-value", t("nominal")],
-  ["number limits", t("limits")],
-  ["number actual", t("actual")],
-  ["number deviation", t("deviation")],
-  ["bar", t("ofTolerance")],
-  ["verdict", t("verdict")],
-  ...(truth ? ([["number truth", t("trueValue")], ["number truth truth-error", t("error")]] as [string, string][]) : []),
-];
+export function sheetHeads(truth: boolean): [string, string][] {
+  const heads: [string, string][] = [
+    ["no", t("number")],
+    ["characteristic", t("characteristic")],
+    ["number nominal-value", t("nominal")],
+    ["number limits", t("limits")],
+    ["number actual", t("actual")],
+    ["number deviation", t("deviation")],
+    ["bar", t("ofTolerance")],
+    ["verdict", t("verdict")],
+  ];
+  if (truth) heads.push(["number truth", t("trueValue")], ["number truth truth-error", t("error")]);
+  return heads.map(([kind, text]) => [kind, hyphenated(text)]);
+}
 
 export const hasTruth = ({ results }: Report): boolean =>
   results.cycles.some((cycle) => cycle.results.some((result) => result.truth));
@@ -228,7 +232,9 @@ export class Sheet {
           build: () => {
             const result = cycle.results[row];
             const bad = result.verdict === "rework" || result.verdict === "scrap";
-            return inGroup(h("div", { class: `result row ${bad ? result.verdict : ""}`, role: "row" }, ...resultCells(result, `${group.cycle + 1}.${i + 1}`, this.truth)));
+            // Without nominal value and limits there is room for a long name.
+            const bare = result.nominal === undefined && result.upperLimit === undefined && result.lowerLimit === undefined;
+            return inGroup(h("div", { class: `result row ${bad ? result.verdict : ""} ${bare ? "bare" : ""}`, role: "row" }, ...resultCells(result, `${group.cycle + 1}.${i + 1}`, this.truth)));
           },
         }),
       );
