@@ -8,6 +8,7 @@
 #include <regex>
 #include <string_view>
 
+#include "cycles/catalogue.hpp"
 #include "cycles/main_results.hpp"
 #include "records/feature_names.hpp"
 #include "records/readable_text.hpp"
@@ -34,6 +35,13 @@ std::string inOneLine(std::string text) {
       text.replace(at, none.size(), " ");
   }
   return text;
+}
+
+/// True for a value that stands for "not measured": the cycle leaves a status where its definition names a measurement.
+bool isMissing(const control::CycleRecord& cycle, const control::ResultRecord& result) {
+  const cycles::CycleDefinition* definition = cycles::cycleNamed(cycle.name);
+  const cycles::ResultDefinition* known = definition != nullptr ? definition->result(result.name) : nullptr;
+  return known != nullptr && known->kind.role != control::Role::Status && result.kind.role == control::Role::Status;
 }
 
 }  // namespace
@@ -64,7 +72,7 @@ Inspection inspectionOf(const control::Journal& journal, const records::RunInfo&
     const std::vector<bool> isMain = cycles::mainResults(cycle);
     for (std::size_t i = 0; i < isMain.size(); ++i) {
       const control::ResultRecord& result = cycle.results[i];
-      if (!isMain[i] || !std::isfinite(result.value)) continue;
+      if (!isMain[i] || !std::isfinite(result.value) || isMissing(cycle, result)) continue;
       Row row;
       row.cycle = number;
       row.cycleName = text(cycle.name);

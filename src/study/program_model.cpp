@@ -57,23 +57,26 @@ public:
   ~HandOver() = default;
   /// Empties the folder and writes the files; false if that fails.
   bool take(const std::map<std::string, std::string>& files) {
-    if (!folder_) folder_.emplace();
-    if (folder().empty()) return false;
+    if (!scratch_) scratch_.emplace();
+    if (scratch_->path().empty()) return false;
+    // Not the scratch folder itself: that one is held locked, and a run that begins from tables waits for their folder.
+    folder_ = scratch_->path() / "tables";
     std::error_code error;
-    for (fs::directory_iterator entry(folder(), error), end; !error && entry != end; entry.increment(error))
-      fs::remove_all(entry->path(), error);
+    fs::remove_all(folder_, error);
+    if (!fs::create_directory(folder_, error)) return false;
     for (const auto& [name, text] : files) {
-      std::ofstream file(folder() / fs::path(name).filename(), std::ios::binary);
+      std::ofstream file(folder_ / fs::path(name).filename(), std::ios::binary);
       file << text;
       if (!file.flush()) return false;
     }
-    return !error;
+    return true;
   }
   /// Of what has been taken.
-  const fs::path& folder() const { return folder_->path(); }
+  const fs::path& folder() const { return folder_; }
 
 private:
-  std::optional<ScratchFolder> folder_;
+  std::optional<ScratchFolder> scratch_;
+  fs::path folder_;
 };
 
 struct Script {

@@ -130,7 +130,9 @@ TEST(InchProgram, HasMinusOneWhereAnAxisWasNotMeasured) {
     // A and B were not measured; with Q406 = 0 nothing is optimised either.
     for (const int number : {141, 142, 144, 145})
       EXPECT_EQ(inches.q(number), -1) << number;
-    if (cycle == 451) EXPECT_EQ(inches.q(146), -1);
+    if (cycle == 451) {
+      EXPECT_EQ(inches.q(146), -1);
+    }
     EXPECT_NEAR(inches.q(143), plain.q(143), 1e-6);
     EXPECT_GT(inches.q(143), 1e-4);
     for (int number = 147; number <= 149; ++number)
