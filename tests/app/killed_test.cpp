@@ -272,10 +272,10 @@ TEST(KilledRecord, HoldsWholeRunsAndNothingLiesBesideIt) {
   const fs::path work = folder / "work", record = work / "record.csv", out = folder / "out", count = folder / "count";
   const auto run = [&](const std::string& fault) {
     fs::remove_all(out);
-    const std::string command = fault +
+    const std::string command = "cd '" PROBEWRIGHT_SOURCE_DIR "' && " + fault +
                                 " LD_PRELOAD='" PROBEWRIGHT_FAILING_CALLS "' '" PROBEWRIGHT_PROGRAM
                                 "' run examples/first/plate.h --setup examples/first/plate.toml --out '" +
-                                out.string() + "' --append '" + record.string() + "' --quiet > /dev/null 2>&1";
+                                out.string() + "' --append '" + record.string() + "' --quiet > /dev/null 2>&1; exit $?";
     return WEXITSTATUS(std::system(command.c_str()));
   };
   const auto linesOf = [&] { return std::ranges::count(textOf(record), '\n'); };
@@ -321,8 +321,9 @@ TEST(KilledCommands, LeaveNothingAfterTheNextOne) {
     fs::create_directory(where / ".a.probewright-unfinished-Abc123");
     for (const char* name : {".a.probewright-unfinished-Abc123/b", ".b.probewright-unfinished-xyz789"})
       folder.file((inTemporary ? "temporary/" : "place/") + std::string(name), "left");
-    const std::string line = "TMPDIR='" + temporary.string() + "' '" PROBEWRIGHT_PROGRAM "' " + command + " > '" +
-                             (folder / "printed").string() + "' 2>&1";
+    const std::string line = "cd '" PROBEWRIGHT_SOURCE_DIR "' && TMPDIR='" + temporary.string() +
+                             "' '" PROBEWRIGHT_PROGRAM "' " + command + " > '" + (folder / "printed").string() +
+                             "' 2>&1";
     EXPECT_LE(WEXITSTATUS(std::system(line.c_str())), 1) << textOf(folder / "printed");
     for (const fs::path& each : {place, temporary})
       for (const std::string& name : namesIn(each))

@@ -43,9 +43,9 @@ TEST_F(LinuxCncExamples, FindTheMiddleOfABoreOnTheMill) {
   EXPECT_NEAR(bore[3], -0.9 - 30.01 / 2 + 3 - pretravel, bound);
 }
 
-TEST_F(LinuxCncExamples, RunAKlartextProgramAndLeaveItsPresetInG54) {
-  const std::string output = start("mill3 bore.h");
-  std::ifstream parameters(session_.outside() / "linuxcnc/configs/probewright-mill3/mill3.var");
+/// The preset of the plate stands in G54, and the report is there.
+void expectPreset(const std::filesystem::path& home, const std::string& output) {
+  std::ifstream parameters(home / "linuxcnc/configs/probewright-mill3/mill3.var");
   std::map<int, double> values;
   int number = 0;
   for (double value = 0; parameters >> number >> value;)
@@ -53,7 +53,15 @@ TEST_F(LinuxCncExamples, RunAKlartextProgramAndLeaveItsPresetInG54) {
   EXPECT_NEAR(values[5221], 1.7, bound) << output;
   EXPECT_NEAR(values[5222], -0.9, bound);
   EXPECT_NEAR(values[5223], -250, bound);
-  EXPECT_TRUE(std::filesystem::exists(session_.outside() / "linuxcnc/configs/probewright-mill3/measured/report.html"));
+  EXPECT_TRUE(std::filesystem::exists(home / "linuxcnc/configs/probewright-mill3/measured/report.html"));
+}
+
+TEST_F(LinuxCncExamples, RunAKlartextProgramAndLeaveItsPresetInG54) {
+  expectPreset(session_.outside(), start("mill3 bore.h"));
+}
+
+TEST_F(LinuxCncExamples, RunASinumerikProgramAndLeaveItsOffsetInG54) {
+  expectPreset(session_.outside(), start("mill3 bore.mpf"));
 }
 
 /// The axes of all touches that are in these results.
