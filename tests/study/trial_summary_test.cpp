@@ -5,8 +5,8 @@
 #include <numeric>
 #include <random>
 
-#include "study/model_bench.hpp"
 #include "study/findings.hpp"
+#include "study/model_bench.hpp"
 
 /// Sums of trials against all values: the same bits in any order, and quantiles no farther off than is said.
 namespace probewright::study::testing {
