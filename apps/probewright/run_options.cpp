@@ -72,10 +72,9 @@ Subcommand addRun(CLI::App& app) {
   run->add_flag("--dry-run", arguments->dryRun,
                 "SINUMERIK DRY: paths at the dry run feed $SC_DRY_RUN_FEED, measuring cycles are skipped")
       ->excludes(test);
-  run->add_option(
-         "--search", arguments->searchLine,
-         "SINUMERIK block search: begin at this line of the program as if all before it had run, without motion "
-         "and measuring")
+  run->add_option("--search", arguments->searchLine,
+                  "Begin at this line of the program as if all before it had run, without motion and measuring "
+                  "(SINUMERIK: block search; HEIDENHAIN: mid-program startup)")
       ->check(notNegative)
       ->type_name("LINE");
   addLanguage(*run, arguments->language, "Language of the summary, the report and the control's messages and logs");

@@ -106,7 +106,8 @@ struct ControlFamily {
   std::vector<control::DialogLanguage> dialogLanguages;  ///< that its logs and screens are written in
   bool hasPresets = false;                               ///< beliefs may have rows of a preset table
   bool hasZeroOffsets = false;                           ///< beliefs may have settable zero offsets
-  bool hasProgramModes = false;  ///< dry run, program test and block search (RunOptions::mode, searchLine)
+  bool hasProgramModes = false;                          ///< dry run and program test (RunOptions::mode)
+  bool startsAtLines = false;                            ///< block search, mid-program startup (RunOptions::searchLine)
 
   std::vector<const cycles::CycleDefinition*> (*cycles)(control::ControlKind control) = nullptr;
   /// Every mistake that can be seen without running, in the order of the lines.

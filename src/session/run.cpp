@@ -99,19 +99,22 @@ void prepare(PreparedProgram& prepared, const std::shared_ptr<language::Program>
     prepared.diagnostics.push_back(
         {Severity::Error, {prepared.path.string(), 0, 0}, std::move(message), {}, std::move(advice), {}});
   };
-  if (!family.hasProgramModes && (options.mode != ProgramMode::Normal || options.searchLine)) {
-    std::vector<std::string_view> having;
+  const auto having = [&](bool ControlFamily::*ability) {
+    std::vector<std::string_view> names;
     for (const ControlFamily& each : familiesOf(options).all())
-      if (each.hasProgramModes) having.push_back(each.name);
-    const std::string others = fmt::format("{}", fmt::join(having, " and "));
-    if (options.searchLine)
-      return refuse(fmt::format("a {} program starts at its beginning: a start at line {}, in its middle, is carried "
-                                "out for {} programs only",
-                                family.name, *options.searchLine, others),
-                    "start it from its first block, and let it jump over what is done already");
-    return refuse(
-        fmt::format("dry run and program test are modes of {} controls, this is a {} program", others, family.name),
-        "leave them out for this program");
+      if (each.*ability) names.push_back(each.name);
+    return fmt::format("{}", fmt::join(names, " and "));
+  };
+  if (!family.hasProgramModes && options.mode != ProgramMode::Normal) {
+    return refuse(fmt::format("dry run and program test are modes of {} controls, this is a {} program",
+                              having(&ControlFamily::hasProgramModes), family.name),
+                  "leave them out for this program");
+  }
+  if (!family.startsAtLines && options.searchLine) {
+    return refuse(fmt::format("a {} program starts at its beginning: a start at line {}, in its middle, is carried "
+                              "out for {} programs only",
+                              family.name, *options.searchLine, having(&ControlFamily::startsAtLines)),
+                  "start it from its first block, and let it jump over what is done already");
   }
   if (std::ranges::find(family.dialogLanguages, options.language) == family.dialogLanguages.end()) {
     return refuse(fmt::format("{} controls have no dialog language {}", family.name, control::code(options.language)),

@@ -58,8 +58,9 @@ struct RunOptions {
   std::bitset<10> skipLevels;
   std::int64_t wallClock = 0;  ///< seconds since 1970 (UTC) when the program starts, for logs
   ProgramMode mode = ProgramMode::Normal;
-  /// Of families with program modes: block search with calculation. The axes stand and measuring cycles are skipped up
-  /// to this line of the main program; there they go straight to where the program stands, and the program goes on.
+  /// SINUMERIK: block search with calculation; HEIDENHAIN: mid-program startup. The axes stand and measuring cycles are
+  /// skipped up to this line of the main program; there they go to where the program stands (HEIDENHAIN: the axis along
+  /// the tool up before the others, down after them), and the program goes on.
   std::optional<std::uint64_t> searchLine;
   control::DialogLanguage language = control::DialogLanguage::English;  ///< of logs and screens
   std::vector<std::string> measuringLogs;  ///< SINUMERIK: logs of all measurements; a table if the name ends in .csv

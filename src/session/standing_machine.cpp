@@ -162,4 +162,25 @@ machine::WaitEnd StandingMachine::dwell(double seconds) {
   return stop_.stop_requested() ? machine::WaitEnd::Cancelled : machine::WaitEnd::Over;
 }
 
+void catchUp(StandingMachine& machine, control::Channel& channel, std::optional<std::size_t> last) {
+  const machine::AxisPositions target = machine.position();
+  const StandingOrders orders = machine.orders();
+  machine.release();
+  if (orders.tool) channel.changeTool(*orders.tool);
+  if (orders.angle) machine.orientSpindle(*orders.angle);
+  if (orders.rotation) channel.turnSpindle(orders.rotation->rotation, orders.rotation->speed);
+  if (orders.toolAngle) machine.orientTool(*orders.toolAngle);
+  if (orders.toolRotation) machine.turnTool(orders.toolRotation->rotation, orders.toolRotation->speed);
+  for (const int number : orders.functions)
+    channel.function(number);
+  if (last) {
+    const machine::AxisPositions now = machine.position();
+    const bool up = target[*last] > now[*last];
+    machine::AxisPositions between = up ? now : target;
+    between[*last] = up ? target[*last] : now[*last];
+    channel.moveAxes(between, machine::Feed::rapidTraverse());
+  }
+  channel.moveAxes(target, machine::Feed::rapidTraverse());
+}
+
 }  // namespace probewright::session

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "control/channel.hpp"
 #include "machine/machine.hpp"
 #include "machine/tool_spindle.hpp"
 
@@ -71,5 +72,10 @@ private:
   machine::SpindleState spindle_, driven_;
   StandingOrders orders_;
 };
+
+/// From now on the machine itself moves: it catches up with what was ordered while the axes stood, tool, spindle and M
+/// functions, and goes to where they were counted to be. `last`: the axis along the tool, which goes up before the
+/// others and down after them; without it all go straight, together.
+void catchUp(StandingMachine& machine, control::Channel& channel, std::optional<std::size_t> last = std::nullopt);
 
 }  // namespace probewright::session

@@ -29,7 +29,8 @@ TEST_F(FromTheScreen, AProgramRunsLineByLineAndStartsWhereItIsTold) {
   session_.write("from.mpf",
                  "N10 G17 G90 G71 G94 G54\nN20 G0 X10 Y10 Z150\nN30 G1 X20 F6000\nN40 X60\nN50 X90 F3000\nM30\n");
   session_.write("tnc.toml", setup("TNC640", world, 300));
-  session_.write("way.h", "0 BEGIN PGM W MM\n1 L X+10 Y+10 Z+150 R0 FMAX\n2 L X+20 R0 FMAX\n3 END PGM W MM\n");
+  session_.write("way.h",
+                 "0 BEGIN PGM W MM\n1 L X+10 Y+10 Z+150 R0 FMAX\n2 L X+60 R0 F6000\n3 L X+90 F3000\n4 END PGM W MM\n");
   atTheDesk(std::string(keeps) + words + call(world) + R"(
 begin('way.mpf')
 paused()
@@ -70,21 +71,21 @@ for _ in range(60):
 desk.tell('steps', *places)
 keep('stepped')
 
-desk.mode(linuxcnc.MODE_AUTO)
+# A HEIDENHAIN program from line 4 on.
 shutil.copy('tnc.toml', 'setup.toml')
-desk.command.program_open('way.h')
-desk.taken()
-desk.messages.clear()
-desk.command.auto(linuxcnc.AUTO_RUN, 3)
-desk.until('a refusal', lambda s: desk.messages)
-idle()
+desk.mdi('G53 G0 X0')
+seen = set()
+desk.begin('way.h', 4)
+desk.until('results', look)
+keep('middle')
+desk.tell('middle', where(), *sorted(seen))
 )");
   EXPECT_EQ(session_.told(output, "stop"), (std::vector<double>{20, 4})) << output;
   EXPECT_EQ(session_.told(output, "end"), (std::vector<double>{30}));
   EXPECT_THAT(output, HasSubstr("desk: message LOOK HERE"));
   EXPECT_EQ(session_.told(output, "from"), (std::vector<double>{90, 5})) << "no line before the fifth moves";
   EXPECT_EQ(session_.told(output, "steps"), (std::vector<double>{0, 10, 20, 30})) << output;
-  EXPECT_THAT(output, HasSubstr("a HEIDENHAIN program starts at its beginning: a start at line 3, in its middle"));
+  EXPECT_EQ(session_.told(output, "middle"), (std::vector<double>{90, 4})) << output;
 }
 
 TEST_F(FromTheScreen, InchesARotaryAxisSpindleAndCoolantPassThrough) {

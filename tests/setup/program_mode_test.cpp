@@ -6,7 +6,8 @@
 #include "setup/simulated_run.hpp"
 #include "support/virtual_world.hpp"
 
-/// Dry run, program test and block search of SINUMERIK programs; inch programs; the lathe as it begins.
+/// Dry run, program test and block search of SINUMERIK programs, starts of HEIDENHAIN programs in their middle; inch
+/// programs; the lathe as it begins.
 namespace probewright::setup {
 namespace {
 
@@ -123,6 +124,82 @@ TEST(ProgramMode, ASearchTargetThatIsNotReachedIsAnAlarm) {
   EXPECT_EQ(outcome.info.exit, records::ExitState::Stopped);
   ASSERT_FALSE(outcome.result.diagnostics.empty());
   EXPECT_EQ(outcome.result.diagnostics.front().code, "15370");
+}
+
+setup::Setup heidenhainSetup(const Vector3& shift) {
+  setup::Setup setup = blockSetup(shift);
+  setup.beliefs.control = control::ControlKind::TNC640;
+  setup.beliefs.presets.swap(setup.beliefs.zeroOffsets);
+  setup.beliefs.presets.front().name.clear();
+  return setup;
+}
+
+/// Measures the left side (line 6) and the front side (line 12) of the block, with a subprogram between.
+constexpr const char* measureSides =
+    "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z\n2 L Z+50 R0 FMAX\n3 Q50 = 7\n4 STOP\n"
+    "5 TCH PROBE 427 LEFT ~\nQ263=-30 ~\nQ264=+0 ~\nQ261=-10 ~\nQ320=+2 ~\nQ272=+1 ~\nQ267=+1 ~\nQ260=+20 ~\nQ281=+0 "
+    "~\n"
+    "Q288=-29 ~\nQ289=-31 ~\nQ309=+0 ~\nQ330=+0\n"
+    "6 Q50 = Q50 + Q50\n7 L X-45 Y+15 R0 FMAX\n8 L Z+30 R0 FMAX\n9 CALL LBL 1\n"
+    "10 TCH PROBE 427 FRONT ~\nQ263=+0 ~\nQ264=-20 ~\nQ261=-10 ~\nQ320=+2 ~\nQ272=+2 ~\nQ267=+1 ~\nQ260=+20 ~\nQ281=+0 "
+    "~\n"
+    "Q288=-19 ~\nQ289=-21 ~\nQ309=+0 ~\nQ330=+0\n11 STOP M2\n12 LBL 1\n13 Q51 = Q51 + 1\n14 LBL 0\n15 END PGM A MM\n";
+constexpr std::size_t left = 6, front = 23;  // lines
+
+TEST(ProgramMode, AHeidenhainProgramStartsInItsMiddle) {
+  // At the block, within it, and in a subprogram that stands behind it.
+  for (const std::uint64_t line : {front, front + 5}) {
+    RunOptions options;
+    options.searchLine = line;
+    MachineOptions machine;
+    machine.recordPath = true;
+    const SimulatedRun run = runText("A.H", measureSides, heidenhainSetup({0, 0.25, 0}), options, machine);
+    const RunOutcome& outcome = run.outcome;
+    EXPECT_EQ(outcome.info.exit, records::ExitState::Good) << outcome.info.exitText;
+    ASSERT_EQ(outcome.journal.cycles.size(), 1U);
+    EXPECT_EQ(outcome.journal.cycles[0].place.line, front);
+    EXPECT_NEAR(outcome.journal.cycles[0].results[0].value, -19.75, 1e-6);
+    EXPECT_EQ(outcome.variable("Q50"), 14);
+    EXPECT_EQ(outcome.variable("Q51"), 1);
+    const auto told = [&](const char* text) {
+      return std::ranges::count_if(outcome.journal.events, [&](const control::EventRecord& event) {
+        return event.text.find(text) != std::string::npos;
+      });
+    };
+    EXPECT_EQ(told("Touch probe cycles before the start block are skipped"), 1);
+    EXPECT_EQ(told("Program stop"), 1) << "the one after the start only";
+    // Above the block across, and then down to where the program stands.
+    const auto& points = run.machine->path().points;
+    // To the tip of the ball or to its centre.
+    const auto down = std::ranges::find_if(
+        points, [](const simulation::PathPoint& point) { return (point.tip - Vector3(-45, 15, -370)).norm() < 2.001; });
+    ASSERT_NE(down, points.end());
+    ASSERT_NE(down, points.begin());
+    EXPECT_LT((std::prev(down)->tip - down->tip).head<2>().norm(), 1e-6);
+    EXPECT_GT(std::prev(down)->tip.z(), down->tip.z() + 1);
+  }
+  // The subprogram is called before the front is measured.
+  RunOptions options;
+  options.searchLine = front + 15;
+  const RunOutcome inside = runText("A.H", measureSides, heidenhainSetup({0, 0.25, 0}), options).outcome;
+  EXPECT_EQ(inside.info.exit, records::ExitState::Good) << inside.info.exitText;
+  ASSERT_EQ(inside.journal.cycles.size(), 1U);
+  EXPECT_EQ(inside.variable("Q51"), 1);
+  // From the first line on it is the whole program.
+  options.searchLine = 1;
+  const RunOutcome whole = runText("A.H", measureSides, heidenhainSetup({0, 0.25, 0}), options).outcome;
+  ASSERT_EQ(whole.journal.cycles.size(), 2U) << whole.info.exitText;
+  EXPECT_EQ(whole.journal.cycles[0].place.line, left);
+}
+
+TEST(ProgramMode, AStartBlockThatIsNotReachedIsAnAlarm) {
+  RunOptions options;
+  options.searchLine = 400;
+  const RunOutcome outcome = runText("A.H", measureSides, heidenhainSetup(Vector3::Zero()), options).outcome;
+  EXPECT_EQ(outcome.info.exit, records::ExitState::Stopped);
+  ASSERT_FALSE(outcome.result.diagnostics.empty());
+  EXPECT_EQ(outcome.result.diagnostics.front().code, "Start block not found");
+  EXPECT_TRUE(outcome.journal.cycles.empty());
 }
 
 TEST(ProgramMode, HeidenhainControlsHaveOtherModes) {

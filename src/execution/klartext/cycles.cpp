@@ -101,6 +101,11 @@ void Cycles::measure(const CycleCall& call, Evaluation& evaluation) {
     throw Alarm("Cycle not available", fmt::format("Touch probe cycle {} is not available", call.number),
                 "list the available cycles with: probewright cycles");
   }
+  if (run_.scans) {
+    if (run_.firstTime("skipped touch probe cycles"))
+      run_.message("Touch probe cycles before the start block are skipped; their results have no values");
+    return;
+  }
   cycles::Arguments arguments(entry->definition);
   for (const Word& word : evaluation.words(call.parameters)) {
     const cycles::Parameter* parameter = entry->definition.parameter(word.address);

@@ -80,7 +80,7 @@ void KlartextHost::carryOut(const CycleCall& call, Evaluation& evaluation) {
 
 void KlartextHost::carryOut(const Stop& stop, Evaluation&) {
   motion_.flush();
-  if (!stop.optional) control_.panel.stop("Program stop", control_.channel.seconds());
+  if (!stop.optional && !run_.scans) control_.panel.stop("Program stop", control_.channel.seconds());
 }
 
 bool KlartextHost::beginBlock(const Program& program, const Block& block) {
@@ -89,12 +89,22 @@ bool KlartextHost::beginBlock(const Program& program, const Block& block) {
   place.line = block.position.line;
   place.column = columnOfFirstWord(block.at(block.source));
   if (run_.levels.empty() || run_.levels.back().file != place.file) place.file = program.file();
+  if (run_.scans && run_.levels.size() == 1) endScanAt(block);
   // The end of a program has no instruction for the host, but motion that waits must come to its end.
   const bool ends = std::ranges::any_of(
       block.instructions, [](const Instruction& each) { return std::holds_alternative<EndProgram>(each); });
   if (ends && block.instructions.size() == 1) motion_.settle();
   if (ends) warnOfEarlyEnd(block);
   return true;
+}
+
+/// A line within a block means this block.
+void KlartextHost::endScanAt(const Block& block) {
+  const std::uint64_t wanted = run_.options.startLine;
+  if (wanted < block.position.line || wanted >= block.next.line) return;
+  motion_.settle();
+  run_.scans = false;
+  if (run_.options.scanEnds) run_.options.scanEnds();
 }
 
 /// Controls warn of M2 and M30 in called programs.

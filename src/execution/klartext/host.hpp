@@ -39,6 +39,8 @@ public:
   std::uint64_t takeWork() override { return std::exchange(run_.work, 0); }
   void enter(const Program& program, const CallProgram* call, Evaluation* caller) override;
   void leave(const Program& program) override;
+  /// The block at HostOptions::startLine has not been reached.
+  bool scans() const { return run_.scans; }
 
 private:
   void carryOut(const Move& move, Evaluation& evaluation);
@@ -56,6 +58,7 @@ private:
   void functionBlock(std::string_view text);
   void dwell(double seconds);
   void warnOfEarlyEnd(const Block& block);
+  void endScanAt(const Block& block);
 
   control::heidenhain::Control& control_;
   RunContext run_;

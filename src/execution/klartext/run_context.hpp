@@ -21,6 +21,11 @@ struct HostOptions {
   std::function<Result<std::string>(const std::string& name)> readFile;
   /// True if the run reads a file of this name where it would write it: FN 16 must not write over it.
   std::function<bool(const std::string& name)> isInput;
+  /// Mid-program startup: the line of the main program whose block is the first that the machine carries out; 0: all
+  /// are. What stands before it is counted only and measures nothing; then `scanEnds` brings the machine to where the
+  /// program stands.
+  std::uint64_t startLine = 0;
+  std::function<void()> scanEnds = {};
 };
 
 /// Cycle 12 under way through the points of a pattern.
@@ -49,9 +54,10 @@ public:
   control::heidenhain::Control& control;
   const HostOptions options;
   std::vector<Level> levels;
-  std::string selectedProgram;  ///< of SEL PGM
-  std::string cycleProgram;     ///< of cycle 12
-  std::uint64_t work = 0;       ///< since Host::takeWork was asked
+  std::string selectedProgram;         ///< of SEL PGM
+  std::string cycleProgram;            ///< of cycle 12
+  std::uint64_t work = 0;              ///< since Host::takeWork was asked
+  bool scans = options.startLine > 0;  ///< the first block that is carried out has not been reached
 
   void message(std::string text);
   void warn(std::string text);

@@ -113,6 +113,7 @@ ControlFamily heidenhainFamily() {
   family.calledEndings = {".H", ".I"};
   family.dialogLanguages = {control::allDialogLanguages.begin(), control::allDialogLanguages.end()};
   family.hasPresets = true;
+  family.startsAtLines = true;
   family.cycles = cycles::cyclesOf;
   family.check = checkHeidenhain;
   family.inventory = inventoryOf;

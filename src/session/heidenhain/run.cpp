@@ -17,6 +17,7 @@
 #include "session/own_control.hpp"
 #include "session/run_parts.hpp"
 #include "session/source.hpp"
+#include "session/standing_machine.hpp"
 #include "session/trace_recorder.hpp"
 
 namespace probewright::session {
@@ -24,6 +25,7 @@ namespace probewright::session {
 namespace fs = std::filesystem;
 namespace hh = control::heidenhain;
 using control::ControlKind;
+using execution::RunEnd;
 
 namespace {
 
@@ -110,7 +112,12 @@ std::map<std::string, std::string> filesOf(const hh::Control& control, const hh:
   return files;
 }
 
-void run(const RunRequest& request, FolderReading reading, FirstTables& first, machine::Machine& machine,
+/// The axis of the machine along the tool.
+std::optional<std::size_t> toolAxisOf(const hh::Control& control) {
+  return control.channel.description().axisIndex(std::string(1, "XYZ"[control.coordinates.plane.tool]));
+}
+
+void run(const RunRequest& request, FolderReading reading, FirstTables& first, machine::Machine& trueMachine,
          HostFiles& host, RunOutcome& outcome) {
   const RunOptions& options = request.options;
   const control::Beliefs& beliefs = request.beliefs;
@@ -118,7 +125,7 @@ void run(const RunRequest& request, FolderReading reading, FirstTables& first, m
   outcome.diagnostics.insert(outcome.diagnostics.end(), first.remarks.begin(), first.remarks.end());
   const hh::MachineParameters parameters = machineParameters(beliefs, request.control, outcome.diagnostics);
   std::set<std::string> tableNames = namesOf(tables);
-  const auto cameraMonitoring = cameraMonitoringOf(machine, request, outcome.diagnostics);
+  const auto cameraMonitoring = cameraMonitoringOf(trueMachine, request, outcome.diagnostics);
   if (cameraMonitoring) {
     for (const auto& point : cameraMonitoring->points)
       for (const auto& [name, bytes] : monitoringFiles(point))
@@ -126,10 +133,14 @@ void run(const RunRequest& request, FolderReading reading, FirstTables& first, m
   }
   refuseForeign(outcome.diagnostics, tableNames, options);
   if (hasErrors(outcome.diagnostics)) return;
-  machine::OwnControl* own = machine::ownControlOf(machine);
+  machine::OwnControl* own = machine::ownControlOf(trueMachine);
   if (own != nullptr && own->tables() == nullptr) own = nullptr;
   std::vector<std::string> notes;
-  if (own != nullptr) notes = takeOver(tables, *own->tables(), machine.description());
+  if (own != nullptr) notes = takeOver(tables, *own->tables(), trueMachine.description());
+  // Only a start in the middle lets the axes stand.
+  std::optional<StandingMachine> standing;
+  if (options.searchLine) standing.emplace(trueMachine);
+  machine::Machine& machine = standing ? *standing : trueMachine;
   hh::Control control(request.control, machine, std::move(tables), parameters);
   setPanel(control.panel, request, tableNames);
   control.journal.limit = options.recordLimit;
@@ -157,6 +168,11 @@ void run(const RunRequest& request, FolderReading reading, FirstTables& first, m
   hostOptions.strict = options.strict;
   hostOptions.readFile = [&host](const std::string& name) { return host.read(name); };
   hostOptions.isInput = [&host](const std::string& name) { return host.isInput(name); };
+  if (standing) {
+    standing->hold();
+    hostOptions.startLine = std::max<std::uint64_t>(*options.searchLine, 1);
+    hostOptions.scanEnds = [&] { catchUp(*standing, control.channel, toolAxisOf(control)); };
+  }
   execution::klartext::KlartextHost klartext(control, hostOptions);
   execution::din_iso::DinIsoHost isoHost(klartext);
   const auto library = programLibrary(
@@ -169,13 +185,23 @@ void run(const RunRequest& request, FolderReading reading, FirstTables& first, m
   recordBlocks(interpreterSettings, trace, options);
   execution::Interpreter interpreter(*library, isoHost, interpreterSettings);
   {
-    const Accompanied accompanied(machine, control.channel, control.panel, control.journal, request.program->file());
+    const Accompanied accompanied(trueMachine, control.channel, control.panel, control.journal,
+                                  request.program->file());
     outcome.result = interpreter.run(request.program);
   }
   outcome.trace = trace.finish();
   if (own != nullptr) {
-    giveBack(*own, differing(control.tables, *own->tables(), machine.description()), control.panel,
+    giveBack(*own, differing(control.tables, *own->tables(), trueMachine.description()), control.panel,
              control.channel.seconds());
+  }
+  if (klartext.scans() && outcome.result.end == RunEnd::Finished) {
+    outcome.result.end = RunEnd::Alarm;
+    outcome.result.diagnostics.push_back({Severity::Error,
+                                          {request.program->file(), *options.searchLine, 0},
+                                          "the start block was not found: the program ended before this line",
+                                          {},
+                                          "name a line that the program reaches",
+                                          "Start block not found"});
   }
 
   if (options.files) outcome.files = filesOf(control, cameraMonitoring.get(), options.language);

@@ -134,6 +134,7 @@ ControlFamily sinumerikFamily() {
   family.dialogLanguages = {control::allDialogLanguages.begin(), control::allDialogLanguages.end()};
   family.hasZeroOffsets = true;
   family.hasProgramModes = true;
+  family.startsAtLines = true;
   family.cycles = cyclesOf;
   family.check = check;
   family.inventory = inventoryOf;

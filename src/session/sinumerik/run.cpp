@@ -95,21 +95,6 @@ std::map<std::string, std::string> definitionFiles(const fs::path& tables) {
   return files;
 }
 
-/// After a block search the machine catches up: tool, spindle, M functions, then straight to where the program stands.
-void goOnMoving(StandingMachine& machine, sin::Control& control) {
-  const machine::AxisPositions target = machine.position();
-  const StandingOrders orders = machine.orders();
-  machine.release();
-  if (orders.tool) control.channel.changeTool(*orders.tool);
-  if (orders.angle) machine.orientSpindle(*orders.angle);
-  if (orders.rotation) control.channel.turnSpindle(orders.rotation->rotation, orders.rotation->speed);
-  if (orders.toolAngle) machine.orientTool(*orders.toolAngle);
-  if (orders.toolRotation) machine.turnTool(orders.toolRotation->rotation, orders.toolRotation->speed);
-  for (const int number : orders.functions)
-    control.channel.function(number);
-  control.channel.moveAxes(target, machine::Feed::rapidTraverse());
-}
-
 /// Runs the program `name`, if there is one; see execution::sinumerik::HostOptions::callProgram.
 bool callAside(language::ProgramLibrary& library, execution::Host& host, execution::InterpreterOptions options,
                std::string_view name, const language::Program* caller) {
@@ -253,7 +238,7 @@ void run(const RunRequest& request, const execution::sinumerik::GlobalUserData& 
   hostOptions.strict = options.strict;
   hostOptions.searchLine = options.searchLine.value_or(0);
   hostOptions.searchEnds = [&] {
-    if (!control.programTest) goOnMoving(machine, control);
+    if (!control.programTest) catchUp(machine, control.channel);
   };
   const auto noteCalled = [&](language::Program* opened, const fs::path& file) {
     if (opened != nullptr) useMacros(*opened, globalData);
