@@ -102,7 +102,7 @@ bool KlartextHost::beginBlock(const Program& program, const Block& block) {
 void KlartextHost::endScanAt(const Block& block) {
   const std::uint64_t wanted = run_.options.startLine;
   if (wanted < block.position.line || wanted >= block.next.line) return;
-  motion_.settle();
+  motion_.flush();  // radius compensation stays on
   run_.scans = false;
   if (run_.options.scanEnds) run_.options.scanEnds();
 }
