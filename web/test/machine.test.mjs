@@ -2,38 +2,16 @@
 // Usage: node machine.test.mjs FOLDER_OF_PAGES [FOLDER_FOR_SCREENSHOTS]
 
 import assert from "node:assert/strict";
-import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { mkdirSync, readFileSync } from "node:fs";
 import { join, resolve } from "node:path";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { pathToFileURL } from "node:url";
-import puppeteer from "puppeteer-core";
+import { browser, settle } from "./chromium.mjs";
 
 const [samples, pictures] = process.argv.slice(2);
-const executablePath = [process.env.CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(
-  (path) => path && existsSync(path),
-);
 const expected = JSON.parse(readFileSync(join(samples, "expected.json"), "utf8"));
-const userDataDir = mkdtempSync(join(tmpdir(), "probewright-chromium-"));
-let browser;
 
-before(async () => {
-  assert.ok(executablePath, "Chromium is needed: apt-get install chromium, or name it in CHROMIUM");
-  if (pictures) mkdirSync(pictures, { recursive: true });
-  browser = await puppeteer.launch({
-    executablePath,
-    headless: true,
-    userDataDir,
-    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run", "--disable-background-networking"],
-  });
-});
-
-after(async () => {
-  await browser?.close();
-  rmSync(userDataDir, { recursive: true, force: true, maxRetries: 3 });
-});
-
-const settle = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 100)))));
+if (pictures) mkdirSync(pictures, { recursive: true });
 
 async function open(name, { ready = "#machine main canvas", width = 1400, height = 900, dark = false } = {}) {
   const page = await browser.newPage();

@@ -2,38 +2,16 @@
 // Usage: node page.test.mjs FOLDER_OF_RUNS [FOLDER_FOR_SCREENSHOTS]
 
 import assert from "node:assert/strict";
-import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { mkdirSync, readFileSync } from "node:fs";
 import { join, resolve } from "node:path";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { pathToFileURL } from "node:url";
-import puppeteer from "puppeteer-core";
+import { browser, settle } from "./chromium.mjs";
 
 const [runs, screenshots] = process.argv.slice(2);
-const executablePath = [process.env.CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(
-  (path) => path && existsSync(path),
-);
-const userDataDir = mkdtempSync(join(tmpdir(), "probewright-chromium-"));
 const languages = ["de", "ru", "sv", "zh", "pl", "en"];
-let browser;
 
-before(async () => {
-  assert.ok(executablePath, "Chromium is needed: apt-get install chromium, or name it in CHROMIUM");
-  if (screenshots) mkdirSync(screenshots, { recursive: true });
-  browser = await puppeteer.launch({
-    executablePath,
-    headless: true,
-    userDataDir,
-    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run", "--disable-background-networking", "--force-color-profile=srgb", "--hide-scrollbars"],
-  });
-});
-
-after(async () => {
-  await browser?.close();
-  rmSync(userDataDir, { recursive: true, force: true, maxRetries: 3 });
-});
-
-const settle = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 200)))));
+if (screenshots) mkdirSync(screenshots, { recursive: true });
 
 /** Opens a report, lets `act` look at it, and fails on any error in the page. */
 async function look(run, { width = 1400, height = 900 } = {}, act) {

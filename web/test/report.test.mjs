@@ -2,45 +2,14 @@
 // Usage: node report.test.mjs FOLDER_OF_SAMPLES [FOLDER_FOR_SCREENSHOTS]
 
 import assert from "node:assert/strict";
-import { existsSync, mkdirSync, mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { mkdirSync } from "node:fs";
 import { join, resolve } from "node:path";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { pathToFileURL } from "node:url";
-import puppeteer from "puppeteer-core";
+import { browser, settle } from "./chromium.mjs";
 
 const [samples, pictures] = process.argv.slice(2);
-const executablePath = [process.env.CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(
-  (path) => path && existsSync(path),
-);
-const userDataDir = mkdtempSync(join(tmpdir(), "probewright-chromium-"));
-let browser;
-
-before(async () => {
-  assert.ok(executablePath, "Chromium is needed: apt-get install chromium, or name it in CHROMIUM");
-  if (pictures) mkdirSync(pictures, { recursive: true });
-  browser = await puppeteer.launch({
-    executablePath,
-    headless: true,
-    userDataDir,
-    args: [
-      "--no-sandbox",
-      "--use-angle=swiftshader",
-      "--enable-unsafe-swiftshader",
-      "--disable-quic",
-      "--no-first-run",
-      "--disable-background-networking",
-      "--disable-component-update",
-      "--disable-sync",
-      "--force-color-profile=srgb",
-    ],
-  });
-});
-
-after(async () => {
-  await browser?.close();
-  rmSync(userDataDir, { recursive: true, force: true, maxRetries: 3 });
-});
+if (pictures) mkdirSync(pictures, { recursive: true });
 
 /** A report, settled; fails on any error in the page and on any request that leaves the file. */
 async function open(name, { width = 1400, height = 900, dark = false, graphics = true, hash = "" } = {}) {
@@ -62,9 +31,6 @@ async function open(name, { width = 1400, height = 900, dark = false, graphics =
   await settle(page);
   return { page, problems };
 }
-
-const settle = (page) =>
-  page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 150)))));
 
 const picture = async (page, name, options = {}) => {
   if (pictures) await page.screenshot({ path: join(pictures, `${name}.png`), ...options });

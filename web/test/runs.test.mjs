@@ -3,40 +3,17 @@
 // With PROBEWRIGHT_UPDATE_PICTURES=1 the stored pictures are made again: look at them before they are committed.
 
 import assert from "node:assert/strict";
-import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { existsSync, mkdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { pathToFileURL } from "node:url";
-import puppeteer from "puppeteer-core";
+import { browser, settle } from "./chromium.mjs";
 import { scrolled } from "./scrolled.mjs";
 
 const [runs, stored, screenshots] = process.argv.slice(2);
 const update = process.env.PROBEWRIGHT_UPDATE_PICTURES === "1";
-const executablePath = [process.env.CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(
-  (path) => path && existsSync(path),
-);
-const userDataDir = mkdtempSync(join(tmpdir(), "probewright-chromium-"));
-let browser;
 
-before(async () => {
-  assert.ok(executablePath, "Chromium is needed: apt-get install chromium, or name it in CHROMIUM");
-  if (screenshots) mkdirSync(screenshots, { recursive: true });
-  browser = await puppeteer.launch({
-    executablePath,
-    headless: true,
-    userDataDir,
-    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run", "--disable-background-networking", "--force-color-profile=srgb", "--hide-scrollbars"],
-  });
-});
-
-after(async () => {
-  await browser?.close();
-  rmSync(userDataDir, { recursive: true, force: true, maxRetries: 3 });
-});
-
-/** Until nothing in the page has moved for a few frames. */
-const settle = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 200)))));
+if (screenshots) mkdirSync(screenshots, { recursive: true });
 
 async function open(run, { width = 1400, height = 900, dark = false } = {}) {
   const page = await browser.newPage();
