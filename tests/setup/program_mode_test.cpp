@@ -192,37 +192,28 @@ TEST(ProgramMode, AHeidenhainProgramStartsInItsMiddle) {
   EXPECT_EQ(whole.journal.cycles[0].place.line, left);
 }
 
-/// In a contour with radius compensation: from the start on the tool goes where it goes in the whole program.
-TEST(ProgramMode, AStartWithinAContourKeepsItsRadiusCompensation) {
+/// Where a block of a contour begins depends on the blocks around it: with radius compensation, at roundings and
+/// chamfers.
+TEST(ProgramMode, AStartWithinAContourIsRefusedBeforeAnythingMoves) {
   const std::string program =
       "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z\n2 L Z+50 R0 FMAX\n3 L X-60 Y-60 R0 FMAX\n4 L X-50 Y-40 RL F1000\n5 L Y+40\n"
-      "6 L X+50\n7 L Y-40\n8 L X-60\n9 L Y-70 R0\n10 END PGM A MM\n";
-  const auto ends = [&](std::optional<std::uint64_t> line) {
+      "6 RND R5\n7 L X+50\n8 L Y-40 R0\n9 L X+60\n10 CHF 3\n11 L Y-60\n12 L X+0\n13 END PGM A MM\n";
+  const auto started = [&](std::uint64_t line) {
     RunOptions options;
     options.searchLine = line;
-    MachineOptions machine;
-    machine.recordPath = true;
-    const SimulatedRun run = runText("A.H", program, heidenhainSetup(Vector3::Zero()), options, machine);
-    EXPECT_EQ(run.outcome.info.exit, records::ExitState::Good) << run.outcome.info.exitText;
-    std::vector<Vector3> tips;
-    for (const simulation::PathPoint& point : run.machine->path().points)
-      if (tips.empty() || (tips.back() - point.tip).norm() > 1e-6) tips.push_back(point.tip);
-    return tips;
+    return runText("A.H", program, heidenhainSetup(Vector3::Zero()), options);
   };
-  const std::vector<Vector3> whole = ends(std::nullopt);
-  // 2 mm outside of X50, round its corner, 2 mm outside of Y-40, and to the last block.
-  const auto passes = [](const std::vector<Vector3>& way, double x, double y) {
-    return std::ranges::any_of(way, [&](const Vector3& at) { return (at.head<2>() - Vector2(x, y)).norm() < 1e-6; });
-  };
-  EXPECT_TRUE(passes(whole, 52, -40));
-  EXPECT_TRUE(passes(whole, 50, -42));
-  for (const auto& [line, common] : {std::pair<std::uint64_t, std::size_t>{7, 12}, {8, 12}, {9, 2}}) {
-    const std::vector<Vector3> started = ends(line);
-    ASSERT_GT(started.size(), common);
-    EXPECT_TRUE(passes(started, 52, -40));
-    for (std::size_t i = 1; i <= common; ++i)
-      EXPECT_LT((started[started.size() - i] - whole[whole.size() - i]).norm(), 1e-6)
-          << line << ", " << i << " from the end";
+  for (const std::uint64_t line : {6, 7, 8, 9, 11, 12}) {
+    const SimulatedRun run = started(line);
+    ASSERT_FALSE(run.outcome.result.diagnostics.empty()) << line;
+    EXPECT_EQ(run.outcome.result.diagnostics.front().code, "Start block not permitted") << line;
+    EXPECT_EQ(run.machine->position(), heidenhainSetup(Vector3::Zero()).world.truth.start);
+  }
+  const auto end = started(1).machine->position();
+  for (const std::uint64_t line : {4, 5, 10, 13}) {
+    const SimulatedRun run = started(line);
+    EXPECT_EQ(run.outcome.info.exit, records::ExitState::Good) << line << run.outcome.info.exitText;
+    EXPECT_EQ(run.machine->position(), end) << line;
   }
 }
 

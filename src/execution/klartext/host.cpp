@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "control/alarm.hpp"
 #include "language/word_column.hpp"
 
 namespace probewright::execution::klartext {
@@ -102,7 +103,13 @@ bool KlartextHost::beginBlock(const Program& program, const Block& block) {
 void KlartextHost::endScanAt(const Block& block) {
   const std::uint64_t wanted = run_.options.startLine;
   if (wanted < block.position.line || wanted >= block.next.line) return;
-  motion_.flush();  // radius compensation stays on
+  if (motion_.holdsContour()) {
+    throw control::Alarm(
+        "Start block not permitted",
+        "The start block stands within a contour with radius compensation, or at a rounding or a chamfer: where it "
+        "begins depends on the blocks around it",
+        "start at the block that approaches the contour, or behind the one that leaves it");
+  }
   run_.scans = false;
   if (run_.options.scanEnds) run_.options.scanEnds();
 }

@@ -32,6 +32,8 @@ public:
   /// Forgets all motion that waits.
   void discard() { contour_.discard(); }
   /// Ends all motion that waits; compensation ends too.
+  /// True while the tool does not stand where the program does: radius compensation, a rounding or chamfer to come.
+  bool holdsContour() const { return contour_.holds(); }
   void settle();
 
   /// Away from the workpiece along the tool axis, by a distance or to the limit of travel.
