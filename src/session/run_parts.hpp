@@ -54,10 +54,11 @@ private:
   std::optional<FolderReading> held_;
 };
 
-/// Takes over how far the tool went in which time, and the journal. The last that is done with a control.
+/// Takes over how far the tool went in which time, and the journal; `counted`: mm of it on which the machine stood. The
+/// last that is done with a control.
 template <class Control>
-void takeRecords(Control& control, RunOutcome& outcome) {
-  outcome.info.totalPathLength = control.channel.pathLength();
+void takeRecords(Control& control, RunOutcome& outcome, double counted = 0) {
+  outcome.info.totalPathLength = control.channel.pathLength() - counted;
   outcome.info.totalSeconds = control.channel.seconds();
   outcome.journal = std::move(control.journal);
 }

@@ -90,6 +90,7 @@ TEST(ProgramMode, InProgramTestTheAxesStand) {
   EXPECT_EQ(outcome.journal.events.front().text, "test 1");
   EXPECT_EQ(run.machine->position(), blockSetup().world.truth.start);
   EXPECT_EQ(seconds(outcome), 0);
+  EXPECT_EQ(outcome.info.totalPathLength, 0);
   // A way through the part is not noticed, a travel that does not reach is.
   EXPECT_EQ(runText("A.MPF", "T1 D1 M6\nG54 G0 X0 Y0 Z-20\nM30\n", blockSetup(), options).outcome.info.exit,
             records::ExitState::Good);
@@ -224,6 +225,7 @@ TEST(ProgramMode, AStartBlockThatIsNotReachedIsAnAlarm) {
   EXPECT_EQ(outcome.info.exit, records::ExitState::Stopped);
   ASSERT_FALSE(outcome.result.diagnostics.empty());
   EXPECT_EQ(outcome.result.diagnostics.front().code, "Start block not found");
+  EXPECT_EQ(outcome.info.totalPathLength, 0) << "nothing has moved";
   EXPECT_TRUE(outcome.journal.cycles.empty());
 }
 

@@ -168,10 +168,14 @@ void run(const RunRequest& request, FolderReading reading, FirstTables& first, m
   hostOptions.strict = options.strict;
   hostOptions.readFile = [&host](const std::string& name) { return host.read(name); };
   hostOptions.isInput = [&host](const std::string& name) { return host.isInput(name); };
+  double counted = 0;  // mm of the path on which nothing moved
   if (standing) {
     standing->hold();
     hostOptions.startLine = std::max<std::uint64_t>(*options.searchLine, 1);
-    hostOptions.scanEnds = [&] { catchUp(*standing, control.channel, toolAxisOf(control)); };
+    hostOptions.scanEnds = [&] {
+      counted = control.channel.pathLength();
+      catchUp(*standing, control.channel, toolAxisOf(control));
+    };
   }
   execution::klartext::KlartextHost klartext(control, hostOptions);
   execution::din_iso::DinIsoHost isoHost(klartext);
@@ -213,7 +217,7 @@ void run(const RunRequest& request, FolderReading reading, FirstTables& first, m
     return number && hh::QParameters::exists(*number) ? q.q(static_cast<int>(*number)) : std::nan("");
   };
   outcome.info.inches = control.mainUnit != 1;
-  takeRecords(control, outcome);
+  takeRecords(control, outcome, klartext.scans() ? control.channel.pathLength() : counted);
 }
 
 }  // namespace

@@ -237,8 +237,11 @@ void run(const RunRequest& request, const execution::sinumerik::GlobalUserData& 
   if (stands) machine.hold();
   hostOptions.strict = options.strict;
   hostOptions.searchLine = options.searchLine.value_or(0);
+  double counted = 0;  // mm of the path on which nothing moved
   hostOptions.searchEnds = [&] {
-    if (!control.programTest) catchUp(machine, control.channel);
+    if (control.programTest) return;
+    counted = control.channel.pathLength();
+    catchUp(machine, control.channel);
   };
   const auto noteCalled = [&](language::Program* opened, const fs::path& file) {
     if (opened != nullptr) useMacros(*opened, globalData);
@@ -297,7 +300,7 @@ void run(const RunRequest& request, const execution::sinumerik::GlobalUserData& 
     const auto found = values.find(name);
     return found == values.end() ? std::nan("") : found->second;
   };
-  takeRecords(control, outcome);
+  takeRecords(control, outcome, control.blockSearch || control.programTest ? control.channel.pathLength() : counted);
 }
 
 }  // namespace
