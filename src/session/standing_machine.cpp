@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "control/tool_spindle.hpp"
+
 namespace probewright::session {
 
 using machine::AxisPositions;
@@ -167,10 +169,11 @@ void catchUp(StandingMachine& machine, control::Channel& channel, std::optional<
   const StandingOrders orders = machine.orders();
   machine.release();
   if (orders.tool) channel.changeTool(*orders.tool);
-  if (orders.angle) machine.orientSpindle(*orders.angle);
+  if (orders.angle) channel.orientSpindle(*orders.angle);
   if (orders.rotation) channel.turnSpindle(orders.rotation->rotation, orders.rotation->speed);
-  if (orders.toolAngle) machine.orientTool(*orders.toolAngle);
-  if (orders.toolRotation) machine.turnTool(orders.toolRotation->rotation, orders.toolRotation->speed);
+  if (orders.toolAngle) control::orientTool(channel, machine, *orders.toolAngle);
+  if (orders.toolRotation)
+    control::turnTool(channel, machine, orders.toolRotation->rotation, orders.toolRotation->speed);
   for (const int number : orders.functions)
     channel.function(number);
   if (last) {

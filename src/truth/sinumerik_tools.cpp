@@ -74,12 +74,12 @@ std::vector<int> indicesOf(const std::string& entry) {
   return indices;
 }
 
-constexpr std::string_view countsAsDiameter = "$MC_TOOL_PARAMETER_DEF_MASK";
+constexpr std::string_view countsAsDiameter = "$MC_TOOL_PARAMETER_DEF_MASK", lengthType = "$SC_TOOL_LENGTH_TYPE";
 
 /// The data as the run left them, as far as lengths and radii of tools depend on them.
 DataStore asLeft(DataStore data, const WrittenValues& written) {
   for (const auto& [place, value] : written) {
-    if (!isToolSize(place.first) && place.first != countsAsDiameter) continue;
+    if (!isToolSize(place.first) && place.first != countsAsDiameter && place.first != lengthType) continue;
     const std::vector<int> numbers = indicesOf(place.second);
     data.set(DataKey(place.first, std::vector<DataIndex>(numbers.begin(), numbers.end())), value.value);
   }
@@ -155,6 +155,11 @@ void toolSizes(CollectedEntries& entries, const session::RunOutcome& outcome, co
     const auto& [name, dimension] = what;
     const auto tool = std::ranges::find(compared.tools, name.tool, &BelievedTool::number);
     if (tool == compared.tools.end()) continue;
+    // On a lathe setups tell lengths as of turning tools. Where those of drills act as on mills, they are other
+    // numbers.
+    const bool asOnMills =
+        compared.lathe && tool->kind != "turn" && left.number(DataKey(std::string(lengthType), {})) != 2;
+    if (asOnMills && dimension->parameter != 6) continue;
     const control::CycleRecord* cycle = writer ? &cycles[*writer] : nullptr;
     // A second edge is what the control measured at the same end, or at the rear side, of a tool that turns.
     if (name.edge != 1 && (tool->kind == "turn" || cycle == nullptr || !measuresTools(*cycle))) continue;

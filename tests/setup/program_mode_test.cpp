@@ -218,6 +218,21 @@ TEST(ProgramMode, AStartWithinAContourIsRefusedBeforeAnythingMoves) {
   }
 }
 
+TEST(ProgramMode, AStartInTheMiddleEndsWhereTheSpindleCannotBeOriented) {
+  setup::Setup setup = heidenhainSetup(Vector3::Zero());
+  setup.world.truth.machine.spindleOrients = false;
+  RunOptions options;
+  options.searchLine = 6;
+  const SimulatedRun run = runText("A.H",
+                                   "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z\n2 CYCL DEF 13.0 ORIENTATION\n3 CYCL DEF 13.1 "
+                                   "ANGLE 45\n4 M19\n5 L X+10 R0 FMAX\n"
+                                   "6 L X+20\n7 END PGM A MM\n",
+                                   setup, options);
+  ASSERT_FALSE(run.outcome.result.diagnostics.empty());
+  EXPECT_EQ(run.outcome.result.diagnostics.front().code, "Spindle orientation not possible");
+  EXPECT_EQ(run.machine->position()[0], setup.world.truth.start[0]) << "it has not moved";
+}
+
 TEST(ProgramMode, AStartBlockThatIsNotReachedIsAnAlarm) {
   RunOptions options;
   options.searchLine = 400;

@@ -290,5 +290,25 @@ TEST(LatheTools, WithAnEdgeForTheRearSideHaveALineOfItsOwn) {
   EXPECT_NEAR(*entry(told, "tool 5 D2").distance, 0, 1e-6);
 }
 
+/// With SD 42950 = 0 length 1 lies along Z in G17: the setup's numbers, which are those of the lathe, say nothing of
+/// it.
+TEST(LatheTools, ThatAreDrillsWithLengthsAsOnMillsAreNotCompared) {
+  const std::string drill =
+      "[[tool]]\nnumber = 5\nname = \"DISC\"\nkind = \"drill\"\nlength = 50.03\nradius = 4\nshank_direction = [0, 0, "
+      "1]\n"
+      "mount = [-60, 0, -40]\nbelieved_length = 50\n[tool.cutter]\npoint_angle = 118\nteeth = 2\n";
+  const auto names = [&](const char* type) {
+    const Told told =
+        run({.tools = drill}, fmt::format("$SC_TOOL_LENGTH_TYPE={}\n$TC_DP3[5,1]=90.03\n$TC_DP6[5,1]=4.01", type));
+    EXPECT_TRUE(told.finished()) << told.why();
+    std::vector<std::string> all;
+    for (const records::EntryValue& each : entry(told, "tool 5").values)
+      all.push_back(each.name);
+    return all;
+  };
+  EXPECT_THAT(names("0"), ::testing::ElementsAre("radius"));
+  EXPECT_THAT(names("2"), ::testing::UnorderedElementsAre("length 1", "radius"));
+}
+
 }  // namespace
 }  // namespace probewright::truth::testing
