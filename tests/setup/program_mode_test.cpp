@@ -218,6 +218,22 @@ TEST(ProgramMode, AStartWithinAContourIsRefusedBeforeAnythingMoves) {
   }
 }
 
+TEST(ProgramMode, AStartInTheMiddleMeetsTheProbeThatItPutsIn) {
+  setup::Setup setup = heidenhainSetup(Vector3::Zero());
+  for (simulation::TrueTool& tool : setup.world.truth.tools)
+    tool.probe.serial = "4711-08";
+  for (const std::uint64_t line : {1, 4}) {
+    RunOptions options;
+    options.searchLine = line;
+    const RunOutcome outcome =
+        runText("A.H", "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z\n2 L X+10 R0 FMAX\n3 L X+20 FMAX\n4 END PGM A MM\n", setup,
+                options)
+            .outcome;
+    EXPECT_EQ(outcome.info.exit, records::ExitState::Good) << outcome.info.exitText;
+    EXPECT_NE(outcome.files.at("TCHPROBE.TP").find("4711-08"), std::string::npos) << line;
+  }
+}
+
 TEST(ProgramMode, AStartInTheMiddleEndsWhereTheSpindleCannotBeOriented) {
   setup::Setup setup = heidenhainSetup(Vector3::Zero());
   setup.world.truth.machine.spindleOrients = false;

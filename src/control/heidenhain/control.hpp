@@ -103,6 +103,9 @@ public:
   /// Puts length and radius of the active tool's row into effect again; while a touch probe cycle measures, those of
   /// the calibration data if MP7411 says so.
   void refreshTool();
+  /// Takes over what the touch probe in the spindle tells: its serial number into the touch probe table, and what the
+  /// table says of collisions.
+  void meetProbe();
   /// A touch probe cycle begins or ends to measure. With the calibration data of MP7411 = 0, length and radius of tool
   /// table and TOOL CALL are overwritten by them until it ends.
   void setProbing(bool probing);
@@ -143,9 +146,6 @@ public:
 private:
   /// The row called, or, where it is locked, the first of its replacement tools (RT) that is not. Throws Alarm.
   std::string usableTool(const std::string& called);
-  /// Takes over what the touch probe in the spindle tells: its serial number into the touch probe table, and what the
-  /// table says of collisions.
-  void meetProbe();
   void note(const TypedTable& table, const std::string& row, Column column, const std::string& before);
 
   ControlKind kind_;

@@ -175,6 +175,7 @@ void run(const RunRequest& request, FolderReading reading, FirstTables& first, m
     hostOptions.scanEnds = [&] {
       counted = control.channel.pathLength();
       catchUp(*standing, control.channel, toolAxisOf(control));
+      control.meetProbe();
     };
   }
   execution::klartext::KlartextHost klartext(control, hostOptions);
