@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <set>
+#include <unordered_map>
 #include <utility>
 
 #include "study/measurands.hpp"
@@ -30,6 +31,10 @@ public:
     const Draw estimate = sampler_.estimate();
     const std::vector<Outcome> estimated = crew_(model_, {&estimate, 1});
     if (!estimated.empty()) estimate_ = estimated.front();
+    if (estimate_) {
+      for (std::size_t i = 0; i < estimate_->observations.size(); ++i)
+        placeOfEstimate_.emplace(estimate_->observations[i].of.key, i);
+    }
     noteEstimate();
     TrialCourse course(study_, sampler_, model_, crew_,
                        {[this](const Outcome& outcome, const Draw& draw) { return seen(outcome, draw); },
@@ -66,10 +71,8 @@ private:
 
   /// What the trial at the estimates answers; null if nothing.
   const Observation* estimateOf(const std::string& key) const {
-    if (!estimate_) return nullptr;
-    const auto found =
-        std::ranges::find_if(estimate_->observations, [&](const Observation& each) { return each.of.key == key; });
-    return found == estimate_->observations.end() ? nullptr : &*found;
+    const auto found = placeOfEstimate_.find(key);
+    return found == placeOfEstimate_.end() ? nullptr : &estimate_->observations[found->second];
   }
 
   void tell(const std::string& phase, std::uint64_t done, std::uint64_t of) const {
@@ -169,10 +172,12 @@ private:
   void correlate(const Findings& findings) {
     for (std::size_t i = 0; i < std::min(result_.answers.size(), Grid::mostCorrelated); ++i)
       if (result_.answers[i].values.deviation > 0) result_.correlated.push_back(i);
-    for (const std::size_t a : result_.correlated) {
-      auto& row = result_.correlation.emplace_back();
-      for (const std::size_t b : result_.correlated)
-        row.push_back(a == b ? std::optional(1.0) : findings.correlation(a, b));
+    const std::size_t count = result_.correlated.size();
+    result_.correlation.assign(count, std::vector(count, std::optional(1.0)));
+    for (std::size_t a = 0; a < count; ++a) {
+      for (std::size_t b = a + 1; b < count; ++b)
+        result_.correlation[a][b] = result_.correlation[b][a] =
+            findings.correlation(result_.correlated[a], result_.correlated[b]);
     }
   }
 
@@ -319,6 +324,7 @@ private:
   Measurands measurands_;
   Crew crew_;
   std::optional<Outcome> estimate_;
+  std::unordered_map<std::string, std::size_t> placeOfEstimate_;  ///< by key
   StudyResult result_;
 };
 
