@@ -44,7 +44,7 @@ void touchFromAbove(benchmark::State& state, std::shared_ptr<const Solid> solid,
   probe.probe.stylusRadius = 1;
   truth.tools.push_back(probe);
   VirtualMachine machine(truth);
-  machine.recordPath(false);
+  machine.record(simulation::Recording::Nothing);
   machine.changeTool({1, ""});
   const auto at = [](double x, double y, double z) {
     machine::AxisPositions q;

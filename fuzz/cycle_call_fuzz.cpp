@@ -286,7 +286,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   const auto program = language::sinumerik::SinumerikProgram::fromText("fuzz.mpf", source);
   language::sinumerik::check(*program, {});
   simulation::VirtualMachine machine(worlds[lathe ? 1 : 0]);
-  machine.recordPath(false);
+  machine.record(simulation::Recording::Nothing);
   control::sinumerik::Control control(machine, stores[lathe ? 1 : 0]);
   control.channel.pathTolerance = 0.1;
   execution::sinumerik::SinumerikHost host(control);

@@ -79,9 +79,12 @@ void HeidenhainProber::approach(const BallCentre& ballCentre, double clearanceHe
 }
 
 void HeidenhainProber::moveOnArc(const PartPoint& centre, double angle) {
+  const std::vector<Vector3> points = pointsOnArc(position().vector(), centre.vector(), angle);
+  const PlaneWay tipFromBall = -ballFromTip();
   std::vector<ProgramPlace> tips;
-  for (const Vector3& point : pointsOnArc(position().vector(), centre.vector(), angle))
-    tips.push_back(plane_.xyzFromPlane(tipAt(BallCentre(point), -ballFromTip())));
+  tips.reserve(points.size());
+  for (const Vector3& point : points)
+    tips.push_back(plane_.xyzFromPlane(tipAt(BallCentre(point), tipFromBall)));
   channel_.moveAlong(tips, positioning());
 }
 

@@ -38,7 +38,7 @@ SimulatedRun runPrepared(session::PreparedProgram prepared, const Setup& setup, 
     auto machine = simulation::buildMachine(setup.world, import, !options.blind);
     if (machine) {
       run.machine = std::move(*machine);
-      run.machine->recordPath(options.recordPath);
+      run.machine->record(options.recordPath ? simulation::Recording::Everything : simulation::Recording::Nothing);
       if (setup.camera) run.machine->fit(std::make_unique<camera::VirtualCamera>(*run.machine, *setup.camera));
       warnOfSolids(run.machine->truth(), setup.world.file, prepared.diagnostics);
       warnOfBodies(*run.machine, setup.world.file, prepared.diagnostics);

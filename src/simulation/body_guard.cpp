@@ -208,6 +208,7 @@ std::optional<BodyHit> BodyGuard::firstHit(const Motion& motion, double end, con
     reach = hit->fraction;
     first = std::move(hit);
   }
+  if (views_.empty()) return first;
   const SearchOptions options{.precision = toolPrecision, .stop = &stop};
   const Bounds toolBox = boundsOf(tool);
   const bool anyTool = toolBox.minimum.x() <= toolBox.maximum.x();

@@ -19,14 +19,6 @@ double distanceFromSegment(const Vector3& point, const Vector3& from, const Vect
   return (point - from - along * way).norm();
 }
 
-/// True if the tool shifts in proportion to the axes, and their slides follow at once.
-bool shiftsOnly(const TrueKinematics& kinematics, const machine::AxisPositions& from,
-                const machine::AxisPositions& to) {
-  for (std::size_t i = 0; i < kinematics.axisCount(); ++i)
-    if (from[i] != to[i] && kinematics.backlash(i) != 0) return false;
-  return kinematics.isStraight(from, to);
-}
-
 }  // namespace
 
 std::size_t clearPieces(const TrueKinematics& kinematics, const machine::AxisPositions& from,
@@ -34,7 +26,7 @@ std::size_t clearPieces(const TrueKinematics& kinematics, const machine::AxisPos
                         const Surroundings& surroundings) {
   std::vector<Vector3> places = {kinematics.tableFromSpindle(from, 0).translation()};
   for (const machine::PathPiece& piece : path) {
-    if (!shiftsOnly(kinematics, from, piece.target)) break;
+    if (!kinematics.isStraightWithoutPlay(from, piece.target)) break;
     places.push_back(kinematics.tableFromSpindle(piece.target, 0).translation());
   }
   for (std::size_t count = places.size() - 1; count >= fewestPieces; count /= 2) {

@@ -36,7 +36,7 @@ double cornerSpeed(const machine::AxisPositions& in, const machine::AxisPosition
 }  // namespace
 
 double ContinuousPath::join(const machine::AxisPositions& way, const MotionProfile& profile) {
-  Move move{way, profile, 0};
+  Move move{way, profile, 0, 0};
   double saved = debt_;
   if (last_) {
     const MotionProfile& before = last_->profile;
@@ -44,13 +44,13 @@ double ContinuousPath::join(const machine::AxisPositions& way, const MotionProfi
         std::min({before.targetSpeed(), profile.targetSpeed(), std::sqrt(2 * profile.acceleration() * profile.length()),
                   std::sqrt(last_->entry * last_->entry + 2 * before.acceleration() * before.length()),
                   cornerSpeed(last_->way, way, std::min(before.acceleration(), profile.acceleration()))});
-    saved += secondsOf(before, last_->entry, 0) - secondsOf(before, last_->entry, move.entry);
+    saved += last_->seconds - secondsOf(before, last_->entry, move.entry);
   } else {
     saved = 0;
   }
-  const double own = secondsOf(profile, move.entry, 0);
-  const double added = std::max(0.0, own - saved);
-  debt_ = saved - (own - added);
+  move.seconds = secondsOf(profile, move.entry, 0);
+  const double added = std::max(0.0, move.seconds - saved);
+  debt_ = saved - (move.seconds - added);
   last_ = move;
   return added;
 }

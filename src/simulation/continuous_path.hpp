@@ -23,7 +23,8 @@ private:
   struct Move {
     machine::AxisPositions way;
     MotionProfile profile;
-    double entry = 0;  ///< speed at its beginning
+    double entry = 0;    ///< speed at its beginning
+    double seconds = 0;  ///< from there to standstill
   };
 
   std::optional<Move> last_;

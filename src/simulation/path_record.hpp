@@ -35,6 +35,12 @@ struct PathTouch {
   double seconds = 0;
 };
 
+enum class Recording : std::uint8_t {
+  Everything,
+  Touches,  ///< of the tool, with the points where they happened, and tool changes
+  Nothing,
+};
+
 struct PathRecord {
   std::vector<PathPoint> points;
   std::vector<PathTouch> touches;

@@ -129,6 +129,12 @@ bool TrueKinematics::isStraight(const AxisPositions& from, const AxisPositions& 
   return true;
 }
 
+bool TrueKinematics::isStraightWithoutPlay(const AxisPositions& from, const AxisPositions& to) const {
+  for (std::size_t i = 0; i < machine_.axes.size(); ++i)
+    if (from[i] != to[i] && backlash(i) != 0) return false;
+  return isStraight(from, to);
+}
+
 int TrueKinematics::piecesFor(const AxisPositions& from, const AxisPositions& to) const {
   constexpr double longestTurn = 15;  // degrees
   constexpr double piecesPerWave = 8;

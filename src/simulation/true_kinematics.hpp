@@ -21,6 +21,8 @@ public:
 
   /// True if the spindle frame only shifts in proportion to the axes between these positions.
   bool isStraight(const machine::AxisPositions& from, const machine::AxisPositions& to) const;
+  /// The same, and the slides of all axes that move follow at once.
+  bool isStraightWithoutPlay(const machine::AxisPositions& from, const machine::AxisPositions& to) const;
 
   /// Into how many pieces a move must be cut so that halving them finds every bend.
   int piecesFor(const machine::AxisPositions& from, const machine::AxisPositions& to) const;

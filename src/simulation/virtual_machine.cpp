@@ -194,6 +194,7 @@ std::string VirtualMachine::describe(const Touch& touch) const {
 void VirtualMachine::advance(const Motion& motion, const Stop& stop, PathKind kind) {
   reading_ = motion.readingAt(stop.end);
   slides_ = motion.slidesAt(stop.end);
+  cameFrom_.reset();
   if (guard_) guard_->arrived(stop.end);
   // Stopping early takes the time of braking from the speed reached.
   const double travelled = stop.end * motion.profile.length();
@@ -210,7 +211,8 @@ void VirtualMachine::advance(const Motion& motion, const Stop& stop, PathKind ki
     duration = added;
   }
   clock_ = motion.startSeconds + duration;
-  if (!recording_ || (motion.profile.length() == 0 && !stop.touch)) return;
+  const bool wanted = recording_ == Recording::Everything || (recording_ == Recording::Touches && stop.touch);
+  if (!wanted || (motion.profile.length() == 0 && !stop.touch)) return;
   constexpr double turnPerPoint = 2;  // degrees
   double turn = 0;
   for (std::size_t i = 0; i < truth_.machine.axes.size(); ++i) {
@@ -356,6 +358,14 @@ std::optional<double> VirtualMachine::freeFrom(const Motion& motion) const {
   return fraction;
 }
 
+bool VirtualMachine::isWayBack(const Motion& motion) const {
+  constexpr double same = 1e-9;  // mm, degrees
+  if (!cameFrom_ || !deflection_ || toolContact_) return false;
+  for (std::size_t i = 0; i < truth_.machine.axes.size(); ++i)
+    if (std::abs(motion.to[i] - (*cameFrom_)[i]) > same) return false;
+  return true;
+}
+
 MoveResult VirtualMachine::retract(const AxisPositions& target, Feed feed) {
   if (auto refused = refusal(feed, target)) return *std::move(refused);
   if (auto limit = beyondTravel(target)) return {MoveEnd::AxisLimit, *limit};
@@ -383,6 +393,10 @@ MoveResult VirtualMachine::retract(const AxisPositions& target, Feed feed) {
     return {};
   };
   try {
+    if (isWayBack(motion)) {
+      deflection_.reset();
+      searched = true;
+    }
     if (deflection_) {
       // Mostly the ball is free where it leaves the plane of contact: then it touches nothing there, but later at most.
       begin = leavesPlane(seenFromTouched(motion), *deflection_, shape_.balls[deflection_->ball]);
@@ -412,6 +426,7 @@ MoveResult VirtualMachine::retract(const AxisPositions& target, Feed feed) {
 }
 
 std::optional<Touch> VirtualMachine::overlap() {
+  cameFrom_.reset();
   deflection_ = ballOverlap(tableFromSpindle(), shape_, surroundings_);
   if (!deflection_ && probesOnBed()) deflection_ = ballOverlap(bedFromSpindle(), shape_, toolProbesOnly_);
   auto touch = shaftTouch();

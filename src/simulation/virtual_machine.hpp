@@ -110,8 +110,8 @@ public:
 
   const Truth& truth() const { return truth_; }
   const PathRecord& path() const { return path_.record(); }
-  /// Switched off, moves are no longer added to the record. On at the start.
-  void recordPath(bool on) { recording_ = on; }
+  /// What is added to the record from now on; everything at the start.
+  void record(Recording what) { recording_ = what; }
 
   /// The true place of the spindle (at spindle angle 0) on the table now, and of the tip of the tool.
   Pose tableFromSpindle() const;
@@ -169,6 +169,10 @@ private:
   std::string describe(const BodyHit& hit) const;
   std::string toolName() const;
   std::optional<double> freeFrom(const Motion& motion) const;
+  /// The stylus is deflected at the end of a measuring move.
+  void lean(const Motion& measuring, const Touch& touch);
+  /// True if it leads back along the measuring move that deflected the stylus.
+  bool isWayBack(const Motion& motion) const;
   std::string describe(const Touch& touch) const;
   /// What the tool touch probe signals, in words, while it does.
   std::string toolSignal() const;
@@ -208,7 +212,9 @@ private:
   std::optional<CuttingEdges> edges_;  ///< of a cutter
   machine::AxisPositions reading_;
   machine::AxisPositions slides_;
-  std::optional<Touch> deflection_;   ///< the touch that deflected the stylus, while it is deflected
+  std::optional<Touch> deflection_;  ///< the touch that deflected the stylus, while it is deflected
+  /// Where the measuring move began that deflected the stylus: between there and the touch nothing is in the way.
+  std::optional<machine::AxisPositions> cameFrom_;
   std::optional<Touch> toolContact_;  ///< that of a tool with the tool touch probe, until it is pulled off
   machine::SpindleState spindle_;
   machine::SpindleState driven_;  ///< of a lathe: the spindle of driven tools
@@ -217,7 +223,7 @@ private:
   std::mt19937_64 noise_;
   std::normal_distribution<double> gaussian_;
   std::stop_token stop_;
-  bool recording_ = true;
+  Recording recording_ = Recording::Everything;
   bool tellsTouches_ = true;
   ContinuousPath continuous_;
   PathRecorder path_;

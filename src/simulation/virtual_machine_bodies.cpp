@@ -29,7 +29,7 @@ std::string VirtualMachine::describe(const BodyHit& hit) const {
 
 std::string VirtualMachine::stopAt(const Motion& motion, const BodyHit& hit, PathKind kind) {
   standAt(motion, hit.fraction, kind);
-  if (recording_) {
+  if (recording_ == Recording::Everything) {
     PathTouch touch;
     touch.kind = kind;
     touch.solid = hit.byTool ? hit.body : hit.other;

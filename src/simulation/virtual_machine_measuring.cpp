@@ -82,6 +82,11 @@ MeasureResult VirtualMachine::measure(const MeasureOrder& order) {
   return order.sensor == Sensor::ToolTouchProbe ? measureTool(order) : measureWithProbe(order);
 }
 
+void VirtualMachine::lean(const Motion& measuring, const Touch& touch) {
+  deflection_ = touch;
+  if (kinematics_.isStraightWithoutPlay(measuring.from, measuring.to)) cameFrom_ = measuring.from;
+}
+
 MeasureResult VirtualMachine::measureWithProbe(const MeasureOrder& order) {
   const auto end = [&](MeasureEnd how, std::string detail) { return MeasureResult{how, reading_, std::move(detail)}; };
   if (stop_.stop_requested()) return end(MeasureEnd::Cancelled, stoppedText);
@@ -120,13 +125,13 @@ MeasureResult VirtualMachine::measureWithProbe(const MeasureOrder& order) {
   if (stop.signal && *stop.signal > 1) {
     // The stylus leans against the surface without a signal: the way back must free it as after a touch.
     advance(motion, Stop{}, PathKind::Measure);
-    if (!byShaft) deflection_ = touch;
+    if (!byShaft) lean(motion, *touch);
     return end(MeasureEnd::NoContact, tellsTouches_
                                           ? "the target was reached before the stylus was deflected enough for a signal"
                                           : reachedText);
   }
   advance(motion, stop, PathKind::Measure);
-  if (!byShaft) deflection_ = touch;
+  if (!byShaft) lean(motion, *touch);
   // Nobody reads what was touched where it was meant to be.
   return {MeasureEnd::Touched, motion.readingAt(stop.signal.value_or(stop.end)), {}};
 }

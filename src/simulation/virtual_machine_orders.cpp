@@ -89,7 +89,8 @@ ToolChangeResult VirtualMachine::load(const TrueTool* tool) {
   shape_ = shapeOf(tool_, carrying().angle);
   edges_.reset();
   if (tool_ != nullptr && tool_->kind == ToolKind::Cutter) edges_.emplace(*tool_);
-  if (recording_) path_.add(pathPoint(tableFromSpindle(), reading_, PathKind::ToolChange, clock_));
+  if (recording_ != Recording::Nothing)
+    path_.add(pathPoint(tableFromSpindle(), reading_, PathKind::ToolChange, clock_));
   if (const auto touch = overlap())
     return {touch->shaft ? ToolChangeEnd::Collision : ToolChangeEnd::ProbeSignal, describe(*touch)};
   const auto hit = guard_ ? guard_->standing(slides_, clock_, shape_) : std::nullopt;

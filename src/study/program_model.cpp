@@ -216,7 +216,7 @@ std::unique_ptr<simulation::VirtualMachine> Trials::machineOf(const setup::Setup
                       solids_.end());
   truth.bodies = bodies_;
   auto machine = std::make_unique<simulation::VirtualMachine>(std::move(truth));
-  machine->recordPath(trueValues_);
+  machine->record(trueValues_ ? simulation::Recording::Touches : simulation::Recording::Nothing);
   if (setup.world.toolInSpindle) {
     const auto inserted = machine->insertTool({*setup.world.toolInSpindle, {}});
     if (inserted.end != machine::ToolChangeEnd::Changed) {

@@ -87,6 +87,24 @@ TEST(IdealMachine, RetractFreesTheStylusAndWatchesAgainAfterwards) {
   EXPECT_NEAR(machine.position()[2], -184, 0.01);
 }
 
+TEST(IdealMachine, RetractOnAnotherWayToTheStartMeetsWhatStandsThere) {
+  Truth truth = worldWithFloor();
+  // Over the way along the floor, but under the slanting one.
+  place(truth, Box({4, -5, -395.5}, {6, 5, -392}), Pose::Identity(), "bridge");
+  truth.tools[0].probe.stylusRadius = 0;
+  truth.tools[0].probe.bodyRadius = 0;
+  truth.start = positions({0, 0, -200});
+  VirtualMachine machine(truth);
+  ASSERT_EQ(machine.changeTool({1, ""}).end, machine::ToolChangeEnd::Changed);
+  ASSERT_EQ(machine.move(positions({0, 0, -290}), Feed::rapidTraverse()).end, MoveEnd::Reached);
+  ASSERT_EQ(machine.measure({positions({0, 0, -310}), Feed::at(100)}).end, MeasureEnd::Touched);
+  ASSERT_EQ(machine.retract(positions({10, 0, machine.position()[2]}), Feed::at(100)).end, MoveEnd::Reached);
+  ASSERT_TRUE(machine.deflected(machine::Sensor::TouchProbe));
+  const auto back = machine.retract(positions({0, 0, -290}), Feed::at(100));
+  EXPECT_EQ(back.end, MoveEnd::ProbeSignal);
+  EXPECT_THAT(back.detail, HasSubstr("\"bridge\""));
+}
+
 TEST(IdealMachine, RetractIntoTheMaterialIsRefused) {
   VirtualMachine machine(worldWithFloor());
   machine.changeTool({1, ""});
