@@ -1,11 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "metrology/householder.hpp"
 
 /// Levenberg-Marquardt for the few parameters of a shape.
 namespace probewright::metrology {
@@ -87,9 +87,8 @@ private:
     padded.topRows(jacobian_.rows()) = jacobian_;
     Eigen::VectorXd right = Eigen::VectorXd::Zero(rows);
     right.head(residuals_.size()) = -residuals_;
-    const Eigen::HouseholderQR<Jacobian> qr(padded);
-    right.applyOnTheLeft(qr.householderQ().adjoint());
-    upper_ = qr.matrixQR().template topRows<freedoms>().template triangularView<Eigen::Upper>();
+    triangularize(padded, right);
+    upper_ = padded.template topRows<freedoms>().template triangularView<Eigen::Upper>();
     right_ = right.template head<freedoms>();
   }
 
@@ -109,7 +108,10 @@ private:
     }
     Eigen::Matrix<double, 2 * freedoms, 1> right;
     right << right_, Step::Zero();
-    return stacked.householderQr().solve(right);
+    triangularize(stacked, right);
+    Step step = right.template head<freedoms>();
+    substituteBack(stacked.template topRows<freedoms>(), step);
+    return step;
   }
 
   const Problem& problem_;

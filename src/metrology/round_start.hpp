@@ -1,11 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <cmath>
 #include <optional>
 #include <vector>
+
+#include "metrology/householder.hpp"
 
 /// The algebraic fit that circles and spheres start from.
 namespace probewright::metrology {
@@ -34,8 +35,9 @@ std::optional<RoundShape<D>> algebraicRound(const std::vector<Eigen::Matrix<doub
     design.row(row).template tail<D>() = points[i];
   }
   using Square = Eigen::Matrix<double, D + 1, D + 1>;
-  const Eigen::HouseholderQR<Eigen::Matrix<double, Eigen::Dynamic, D + 1>> qr(design);
-  const Square upper = qr.matrixQR().template topRows<D + 1>().template triangularView<Eigen::Upper>();
+  Eigen::VectorXd none;
+  triangularize(design, none);
+  const Square upper = design.template topRows<D + 1>().template triangularView<Eigen::Upper>();
   const Eigen::JacobiSVD<Square> svd(upper, Eigen::ComputeFullV);
   const Eigen::Matrix<double, D + 1, 1> solution = svd.matrixV().col(D);
   const double quadratic = solution[0] / root;
