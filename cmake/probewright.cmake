@@ -78,6 +78,7 @@ set(PROBEWRIGHT_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
 option(PROBEWRIGHT_MERGE "Compile the files of tests in groups" OFF)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 set(PROBEWRIGHT_MERGE_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/merge_sources.py)
+set(PROBEWRIGHT_SUITES_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/list_suites.py)
 
 # probewright_merge(VARIABLE NAME COUNT): replaces the sources that the variable lists by groups of COUNT of them, if that is
 # asked for. Files with properties of their own, and those that are not tests, stay out.
@@ -118,10 +119,11 @@ function(probewright_merge variable name count)
   set(${variable} ${groups} ${single} PARENT_SCOPE)
 endfunction()
 
-# probewright_test(NAME [LINK targets...] [PROPERTIES names and values...]): one test program of all *_test.cpp files in
-# the calling folder; the properties are those of its tests.
+# probewright_test(NAME [EACH] [LINK targets...] [PROPERTIES names and values...]): one test program of all *_test.cpp files in
+# the calling folder; the properties are those of its entries for ctest. An entry is a suite, NAME.SUITE: a process takes longer to
+# begin than most tests to run. With EACH an entry is a test: for those that take long or need something to themselves.
 function(probewright_test name)
-  cmake_parse_arguments(ARG "" "" "LINK;PROPERTIES" ${ARGN})
+  cmake_parse_arguments(ARG "EACH" "" "LINK;PROPERTIES" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   probewright_merge(sources ${name}_test 6)
   add_executable(${name}_test ${sources})
@@ -132,12 +134,28 @@ function(probewright_test name)
   target_link_libraries(${name}_test PRIVATE ${ARG_LINK} GTest::gtest_main GTest::gmock)
   target_compile_options(${name}_test PRIVATE ${PROBEWRIGHT_TEST_OPTIONS})
   probewright_precompile(${name}_test tests GTest::gtest GTest::gmock)
-  # Of the places that `ctest -j` has, a test that computes takes two, one that waits for a real machine one.
+  # Of the places that `ctest -j` has, an entry that computes takes two, one that waits for a real machine one.
   set(properties TIMEOUT 600 PROCESSORS 2 ${ARG_PROPERTIES})
   if(PROBEWRIGHT_SANITIZE)
     set(suppressions ${PROJECT_SOURCE_DIR}/cmake/leak_suppressions.txt)
     list(APPEND properties ENVIRONMENT LSAN_OPTIONS=suppressions=${suppressions}:print_suppressions=0)
   endif()
-  gtest_discover_tests(${name}_test DISCOVERY_TIMEOUT 60 XML_OUTPUT_DIR ${PROJECT_BINARY_DIR}/test-results/${name}
-                                        PROPERTIES ${properties})
+  set(results ${PROJECT_BINARY_DIR}/test-results/${name})
+  if(ARG_EACH)
+    gtest_discover_tests(${name}_test DISCOVERY_TIMEOUT 60 XML_OUTPUT_DIR ${results} PROPERTIES ${properties})
+    return()
+  endif()
+  if(PROBEWRIGHT_SANITIZE OR PROBEWRIGHT_COVERAGE)
+    list(APPEND properties TIMEOUT 3600)
+  endif()
+  set(entries ${CMAKE_CURRENT_BINARY_DIR}/${name}_suites.cmake)
+  add_custom_command(
+    TARGET ${name}_test POST_BUILD
+    COMMAND Python3::Interpreter ${PROBEWRIGHT_SUITES_SCRIPT} $<TARGET_FILE:${name}_test> ${entries} ${results} ${name} ${properties}
+    BYPRODUCTS ${entries}
+    VERBATIM)
+  # Entries of a program that was never built: one that fails.
+  set(included ${CMAKE_CURRENT_BINARY_DIR}/${name}_entries.cmake)
+  file(WRITE ${included} "if(EXISTS \"${entries}\")\n  include(\"${entries}\")\nelse()\n  add_test(${name}_test_NOT_BUILT ${name}_test_NOT_BUILT)\nendif()\n")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${included})
 endfunction()
