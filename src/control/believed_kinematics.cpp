@@ -1,4 +1,5 @@
 #include "control/believed_kinematics.hpp"
+#include "geometry/decompositions.hpp"
 
 namespace probewright::control {
 
@@ -15,7 +16,7 @@ const machine::ChainElement* elementOf(const machine::MachineDescription& machin
 
 /// The shortest turn from one direction to another, as a rotation vector in degrees.
 Vector3 turnBetween(const Vector3& from, const Vector3& to) {
-  const Eigen::AngleAxisd turn(Eigen::Quaterniond::FromTwoVectors(from, to));
+  const Eigen::AngleAxisd turn(shortestTurn(from, to));
   return degreesFromRadians(turn.angle()) * turn.axis();
 }
 

@@ -9,6 +9,7 @@
 #include "control/alarm.hpp"
 #include "control/missing_axis.hpp"
 #include "control/stopped_place.hpp"
+#include "geometry/decompositions.hpp"
 
 namespace probewright::control {
 namespace {
@@ -121,7 +122,7 @@ AxisPositions Channel::axesFromMachine(const MachinePlace& tip, const AxisPositi
     slope.col(static_cast<Eigen::Index>(i)) = (machineFromAxes(one) - atZero).vector();
   }
   const Vector3 way = (tip - atZero).vector();
-  const Vector3 solution = slope.colPivHouseholderQr().solve(way);
+  const Vector3 solution = solveLinear(slope, way);
   if ((slope * solution - way).norm() > 1e-6) {
     throw Alarm("", "The machine's linear axes cannot reach the position");
   }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/decompositions.hpp"
 #include "simulation/tool_shape.hpp"
 
 namespace probewright::setup {
@@ -39,7 +40,7 @@ void addRings(reports::Mesh& mesh, const Matrix3& frame, const Vector3& origin,
 
 void addShaft(reports::Mesh& mesh, const simulation::Shaft& shaft) {
   const double length = shaft.axis.norm();
-  const Matrix3 frame = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), shaft.axis).toRotationMatrix();
+  const Matrix3 frame = shortestTurn(Vector3::UnitZ(), shaft.axis).toRotationMatrix();
   const double r = shaft.radius;
   const Vector2 down(0, -1), out(1, 0), up(0, 1);
   addRings(mesh, frame, shaft.start,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/decompositions.hpp"
 #include "truth/shapes.hpp"
 
 namespace probewright::truth {
@@ -264,7 +265,7 @@ private:
         Matrix3 normals;
         normals << middle.normal.transpose(), across.normal.transpose(), Vector3::UnitZ().transpose();
         const Vector3 distances(middle.normal.dot(middle.point), across.normal.dot(across.point), middle.point.z());
-        const Vector3 centre = normals.colPivHouseholderQr().solve(distances);
+        const Vector3 centre = solveLinear(normals, distances);
         add(found, believed[axis], centre[axis], both(pair.origin, other->origin));
         continue;
       }

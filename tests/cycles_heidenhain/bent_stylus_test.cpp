@@ -1,6 +1,7 @@
 #include "control/heidenhain/probe_table.hpp"
 #include "cycles_heidenhain/table_folder.hpp"
 #include "cycles_heidenhain/worlds.hpp"
+#include "geometry/decompositions.hpp"
 
 /// STYLUS = L-TYPE: a ball at the end of an arm, which the spindle turns to every surface.
 namespace probewright::testing_support {
@@ -78,7 +79,7 @@ Measured layPart(Dice& dice, Bent& world) {
   part.diameter = dice.between(45, 60);
   part.top = dice.between(-0.4, 0.4);
   Pose face = pose({150, 0, height});
-  face.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), part.normal).toRotationMatrix();
+  face.linear() = shortestTurn(Vector3::UnitZ(), part.normal).toRotationMatrix();
   world.bench.part(simulation::Box({-12, -12, -15}, {12, 12, 0}), face);
   world.bench.part(simulation::Ring(part.diameter / 2, 60, -30), world.at(part.hole.x(), part.hole.y()));
   world.bench.part(simulation::RoundBar(4, -30, 0), world.at(0, -150, part.top));

@@ -1,6 +1,7 @@
 #include "control/heidenhain/deflection_table.hpp"
 #include "cycles_heidenhain/table_folder.hpp"
 #include "cycles_heidenhain/worlds.hpp"
+#include "geometry/decompositions.hpp"
 #include "probing/directional_radius.hpp"
 
 /// Cycle 460 with Q455: a probe that signals sooner or later by direction, and what it measures afterwards.
@@ -53,7 +54,7 @@ Lobed lobed(Dice& dice) {
   const Vector3 point(90, 0, 0);
   Pose presetFromBlock = Pose::Identity();
   presetFromBlock.translation() = point;
-  presetFromBlock.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), world.normal).toRotationMatrix();
+  presetFromBlock.linear() = shortestTurn(Vector3::UnitZ(), world.normal).toRotationMatrix();
   bench.part(simulation::Box({-25, -25, -20}, {25, 25, 0}), world.machineFromPreset * presetFromBlock);
   world.deviation = dice.between(-0.2, 0.2);
   const Vector3 nominal = point - world.normal * world.deviation;

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "cycles_heidenhain/walls.hpp"
+#include "geometry/decompositions.hpp"
 
 /// Cycles 420 and 444 on machines and with probes that are not as the control believes.
 namespace probewright::testing_support {
@@ -208,7 +209,7 @@ TEST(Cycle444, TouchesWithALeaningStylusUnderTcpm) {
     bench.setup.beliefs.parameters["chkTiltingAxes"] = {1.0, {}};
     const Vector3 normal = Vector3(dice.between(-0.5, 0.5), dice.between(-0.5, 0.5), 1).normalized();
     Pose face = pose(origin);
-    face.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), normal).toRotationMatrix();
+    face.linear() = shortestTurn(Vector3::UnitZ(), normal).toRotationMatrix();
     bench.part(simulation::Box({-25, -25, -20}, {25, 25, 0}), face);
     const double deviation = dice.between(-0.3, 0.3);
     const Vector3 nominal = -normal * deviation;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cycles_heidenhain/worlds.hpp"
+#include "geometry/decompositions.hpp"
 
 /// A single plane to touch, wherever it looks.
 namespace probewright::testing_support {
@@ -20,7 +21,7 @@ inline void layWall(Wall& world, const Vector3& normal) {
   world.normal = normal;
   Pose presetFromBlock = Pose::Identity();
   presetFromBlock.translation() = world.point;
-  presetFromBlock.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), normal).toRotationMatrix();
+  presetFromBlock.linear() = shortestTurn(Vector3::UnitZ(), normal).toRotationMatrix();
   world.bench.setup.world.truth.solids.clear();
   world.bench.part(simulation::Box({-25, -25, -20}, {25, 25, 0}), world.machineFromPreset * presetFromBlock);
 }

@@ -1,4 +1,5 @@
 #include "cycles_kinematics/sphere_worlds.hpp"
+#include "geometry/decompositions.hpp"
 
 /// The programs that the manuals print for cycles 450 to 453, in worlds in which they find their way.
 namespace probewright::testing_support {
@@ -22,7 +23,7 @@ SphereWorld world(const Build& build, const Vector3& stem, ControlKind control =
   SphereWorld made(build, control);
   made.bench.setup.world.truth.solids.pop_back();
   Pose along = pose(build.sphere);
-  along.linear() = Eigen::Quaterniond::FromTwoVectors(-Vector3::UnitZ(), stem).toRotationMatrix();
+  along.linear() = shortestTurn(-Vector3::UnitZ(), stem).toRotationMatrix();
   made.bench.part(simulation::RoundBar(1, -60, -sphereRadius + 1), along);
   made.bench.setup.world.truth.tools.front().name = made.bench.believedProbe().name = "TASTER";
   return made;

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "geometry/decompositions.hpp"
 #include "manual_programs/part.hpp"
 #include "manual_programs/printed_blocks.hpp"
 
@@ -93,7 +94,7 @@ TEST_P(PrintedSpecial, Cycle431MeasuresThePlane) {
   const Vector3 drawn = -(second - first).cross(third - first).normalized();
   const Vector3 n = (drawn + Vector3(0.002, -0.003, 0)).normalized();
   Pose face = pose(first + Vector3(0, 0, tableHeight));
-  face.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), n).toRotationMatrix();
+  face.linear() = shortestTurn(Vector3::UnitZ(), n).toRotationMatrix();
   part.bench.part(simulation::Box({-60, -60, -20}, {120, 120, 0}), face);
   EXPECT_EQ(part.bench.run(probe(431, printed::cycle431)).alarm(), "Touch probe deflected");
 

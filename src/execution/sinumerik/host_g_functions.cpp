@@ -9,6 +9,7 @@
 #include "execution/sinumerik/functions.hpp"
 #include "execution/sinumerik/host.hpp"
 #include "execution/sinumerik/spindle_speed.hpp"
+#include "geometry/decompositions.hpp"
 #include "language/sinumerik/check.hpp"
 #include "language/sinumerik/statement_kinds.hpp"
 
@@ -273,7 +274,7 @@ void SinumerikHost::alignFrameWithTool(bool withOrigin) {
       control_.machineFromBase() * control::sinumerik::transform(control_.frames.settableFrame);
   const Vector3 direction = (outer.linear().inverse() * along).normalized();
   Eigen::Affine3d turned = Eigen::Affine3d::Identity();
-  turned.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), direction).toRotationMatrix();
+  turned.linear() = shortestTurn(Vector3::UnitZ(), direction).toRotationMatrix();
   if (withOrigin) turned.translation() = outer.inverse() * tip;
   const auto aligned = control::sinumerik::frameFromTransform(turned);
   if (!aligned) throw Alarm("18314", aligned.error().message, aligned.error().advice);
