@@ -184,6 +184,7 @@ private:
   void noteStops(const Findings& findings) {
     constexpr std::size_t mostNamed = 10;
     const TrialTable& table = findings.kept();
+    const std::vector<Tenths> drawn = table.stops().empty() ? std::vector<Tenths>() : tenthsOf(findings.size());
     for (const auto& [why, places] : table.stops()) {
       Stop stop;
       stop.why = why;
@@ -194,12 +195,35 @@ private:
         for (const std::size_t place : places)
           inputs.push_back(table.inputs(source)[place]);
         stop.sources.push_back(summarize(inputs, study_.coverage));
+        stop.tenths.push_back(drawn[source]);
+        for (const double input : inputs)
+          ++stop.tenths.back().stopped[drawn[source].placeOf(input)];
       }
       for (std::size_t i = 0; i < std::min(mostNamed, places.size()); ++i)
         stop.first.push_back(table.trials()[places[i]]);
       result_.stops.push_back(std::move(stop));
     }
     std::ranges::stable_sort(result_.stops, std::ranges::greater{}, &Stop::count);
+  }
+
+  /// What the sources were in so many trials, the first ones. They are drawn again: sums do not hold them.
+  std::vector<Tenths> tenthsOf(std::uint64_t trials) const {
+    std::vector<Tenths> tenths(study_.sources.size());
+    for (Tenths& each : tenths)
+      each = {INFINITY, -INFINITY, {}, {}};
+    const auto eachInput = [&](const auto& done) {
+      for (std::uint64_t trial = 0; trial < trials; ++trial) {
+        const Draw draw = sampler_.draw(trial);
+        for (std::size_t i = 0; i < tenths.size(); ++i)
+          done(tenths[i], draw.inputs[i]);
+      }
+    };
+    eachInput([](Tenths& of, double value) {
+      of.low = std::min(of.low, value);
+      of.high = std::max(of.high, value);
+    });
+    eachInput([](Tenths& of, double value) { ++of.trials[of.placeOf(value)]; });
+    return tenths;
   }
 
   RunSettings settings(const std::string& phase) const {
@@ -329,6 +353,11 @@ private:
 };
 
 }  // namespace
+
+std::size_t Tenths::placeOf(double value) const {
+  if (!(high > low)) return 0;
+  return static_cast<std::size_t>(std::clamp(std::floor((value - low) / (high - low) * 10), 0.0, 9.0));
+}
 
 StudyResult runStudy(const Study& study, const toml::table& setup, const Model& model, const StudyRun& run) {
   return Runner(study, setup, model, run).run();

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -57,12 +59,21 @@ struct Answer {
   std::optional<GaugeRR> gauge;
 };
 
+/// The range that a source was drawn from in all trials, in ten parts of the same width: how many trials lie in each.
+struct Tenths {
+  double low = 0, high = 0;
+  std::array<std::uint64_t, 10> stopped{}, trials{};
+
+  std::size_t placeOf(double value) const;
+};
+
 /// An alarm, and where the sources stood when it came.
 struct Stop {
   std::string why;
   std::size_t count = 0;
   Interval probability;              ///< Clopper and Pearson, 95 %
   std::vector<Summary> sources;      ///< of each source, in the trials that it has stopped
+  std::vector<Tenths> tenths;        ///< likewise
   std::vector<std::uint64_t> first;  ///< the first trials, at most ten
 };
 

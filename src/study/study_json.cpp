@@ -159,6 +159,8 @@ const char* nameOf(StudyEnd end) {
       return "all trials";
     case StudyEnd::MostTrials:
       return "not stable";
+    case StudyEnd::NoResult:
+      return "no result";
     case StudyEnd::Interrupted:
       return "interrupted";
   }
@@ -168,7 +170,13 @@ const char* nameOf(StudyEnd end) {
 json stopJson(const Stop& stop, const StudyResult& result) {
   json sources = json::array();
   for (std::size_t i = 0; i < stop.sources.size(); ++i)
-    sources.push_back({{"source", result.study.sources[i].name}, {"values", summary(stop.sources[i])}});
+    sources.push_back({{"source", result.study.sources[i].name},
+                       {"values", summary(stop.sources[i])},
+                       {"histogram",
+                        {{"low", number(stop.tenths[i].low)},
+                         {"high", number(stop.tenths[i].high)},
+                         {"stopped", stop.tenths[i].stopped},
+                         {"trials", stop.tenths[i].trials}}}});
   return {{"why", readable(stop.why)},
           {"count", stop.count},
           {"probabilityInterval", interval(stop.probability)},

@@ -61,6 +61,8 @@ std::string heading(const StudyResult& result) {
       return text;
     case StudyEnd::MostTrials:
       return text + "; the digits are NOT stable yet: allow more trials";
+    case StudyEnd::NoResult:
+      return text + "; no trial came to its end" + (result.answers.empty() ? ": nothing was measured" : "");
     case StudyEnd::Interrupted:
       return text + "; INTERRUPTED";
   }
@@ -204,16 +206,37 @@ std::string capabilityText(const Answer& answer) {
   return text + fmt::format("{} distinct categories: {}\n", gauge.ofTolerance ? ";" : " ", gauge.distinctCategories);
 }
 
+/// How many of the trials in each tenth were stopped, in per cent. 0 and 100 mean none and all; "-": no trial lies
+/// there.
+std::string stoppedShares(const Tenths& tenths) {
+  std::string text;
+  for (std::size_t i = 0; i < tenths.trials.size(); ++i) {
+    const std::uint64_t stopped = tenths.stopped[i], of = tenths.trials[i];
+    if (i > 0) text += " ";
+    if (of == 0) {
+      text += "-";
+    } else if (stopped == 0 || stopped == of) {
+      text += stopped == 0 ? "0" : "100";
+    } else {
+      const double share = 100 * static_cast<double>(stopped) / static_cast<double>(of);
+      text += share < 1 ? "<1" : share > 99 ? ">99" : fmt::format("{:.0f}", share);
+    }
+  }
+  return text;
+}
+
 std::string stopsText(const StudyResult& result) {
   std::string text;
   for (const Stop& stop : result.stops) {
     text += fmt::format("\nStopped {} of {} trials ({} to {}): {}\n", stop.count, result.trials,
                         percent(stop.probability.low), percent(stop.probability.high), stop.why);
-    std::vector<std::vector<std::string>> rows = {{"source", "from", "to", "mean"}};
+    std::vector<std::vector<std::string>> rows = {
+        {"source", "from", "to", "mean", "stopped in tenths of its range, %"}};
     for (std::size_t i = 0; i < stop.sources.size(); ++i) {
       const Summary& source = stop.sources[i];
       rows.push_back({result.study.sources[i].name, fmt::format("{:.6g}", source.minimum),
-                      fmt::format("{:.6g}", source.maximum), fmt::format("{:.6g}", source.mean)});
+                      fmt::format("{:.6g}", source.maximum), fmt::format("{:.6g}", source.mean),
+                      stoppedShares(stop.tenths[i])});
     }
     text += table(rows);
   }

@@ -112,8 +112,8 @@ TrialCourse::Digits& TrialCourse::digitsOf(const std::string& key) {
   return stabilities_.try_emplace(key, Digits{none, none}).first->second;
 }
 
-/// Looks at the trials since the last look. True if all digits are stable.
-bool TrialCourse::look() {
+/// Looks at the trials since the last look.
+void TrialCourse::look() {
   const Findings since(block_, sampler_);
   for (std::size_t i = 0; i < since.characteristics().size(); ++i) {
     Digits& digits = digitsOf(since.characteristics()[i].key);
@@ -122,8 +122,15 @@ bool TrialCourse::look() {
   }
   total_.merge(block_);
   block_ = TrialSummary(grid_);
+}
+
+/// What the trials up to the last look say of the digits: whether the study ends with them.
+std::optional<StudyEnd> TrialCourse::verdict() {
   const Findings whole(total_, sampler_);
-  bool stable = true;
+  std::uint64_t most = 0;
+  for (std::size_t i = 0; i < whole.characteristics().size(); ++i)
+    most = std::max(most, whole.count(i));
+  bool stable = most > 0;
   stable_.clear();
   for (std::size_t i = 0; i < whole.characteristics().size(); ++i) {
     const std::string& key = whole.characteristics()[i].key;
@@ -132,9 +139,11 @@ bool TrialCourse::look() {
         found != stabilities_.end() && (whole.truthIsKnown(i) ? found->second.errors : found->second.values).stable();
     if (isStable) stable_.insert(key);
     // Trials that come to an alarm tell nothing: a result that is hardly ever there does not hold up the others.
-    if (whole.count(i) * 2 >= whole.size()) stable = stable && isStable;
+    if (whole.count(i) * 2 >= most) stable = stable && isStable;
   }
-  return stable;
+  if (study_.trials) return std::nullopt;
+  if (whole.finished() == 0) return StudyEnd::NoResult;
+  return stable ? std::optional(StudyEnd::Stable) : std::nullopt;
 }
 
 std::string TrialCourse::state() const {
@@ -177,7 +186,11 @@ StudyEnd TrialCourse::carryOut() {
   if (!run_.state.empty()) restore(run_.state);
   const std::uint64_t wanted = wantedTrials(study_);
   StudyEnd end = study_.trials ? StudyEnd::AllTrials : StudyEnd::MostTrials;
-  while (size() < wanted) {
+  std::optional<StudyEnd> ended;
+  // The earlier run may have come to its end, or to its last look.
+  if (total_.size() > 0) ended = verdict();
+  if (block_.size() > 0) ended.reset();
+  while (!ended && size() < wanted) {
     const std::uint64_t begin = size();
     const bool sums = run_.summing && grid_;
     std::uint64_t until = std::min(begin + (sums ? run_.summing->stretch : run_.stretch), wanted);
@@ -188,17 +201,17 @@ StudyEnd TrialCourse::carryOut() {
       break;
     }
     if (run_.report) run_.report("trials", size(), wanted);
-    const bool looks = size() >= nextLook_;
-    if (looks) nextLook_ += study_.block;
-    const bool stable = looks && look() && !study_.trials;
-    if (run_.summing && grid_ && run_.keepState) run_.keepState(state());
-    if (stable) {
-      end = StudyEnd::Stable;
-      break;
+    if (size() >= nextLook_) {
+      nextLook_ += study_.block;
+      look();
+      ended = verdict();
     }
+    if (run_.summing && grid_ && run_.keepState) run_.keepState(state());
   }
   total_.merge(block_);
   block_ = TrialSummary(grid_);
+  if (ended) return *ended;
+  if (end == StudyEnd::MostTrials && Findings(total_, sampler_).finished() == 0) return StudyEnd::NoResult;
   return end;
 }
 

@@ -24,6 +24,7 @@ enum class StudyEnd {
   Stable,       ///< the digits that were asked for are
   AllTrials,    ///< as many as were asked for
   MostTrials,   ///< the digits are not stable after the most that the study allows
+  NoResult,     ///< no trial has come to the end of the program by the first look at the digits
   Interrupted,  ///< somebody stopped it
 };
 
@@ -78,7 +79,8 @@ private:
   /// Both return false if stopped.
   bool drawValues(std::uint64_t begin, std::uint64_t end);
   bool drawSums(std::uint64_t begin, std::uint64_t end);
-  bool look();
+  void look();
+  std::optional<StudyEnd> verdict();
   std::string state() const;
   void restore(const std::string& state);
 
