@@ -303,6 +303,9 @@ private:
     if (hasCovariance == reader.has("correlation"))
       reader.report("covariance", "a group needs either a covariance or a correlation",
                     "write the matrix row by row in one list: correlation = [1, 0.8, 0.8, 1]");
+    // Whatever is wrong with a covariance is said there, not of the deviations that it was to tell.
+    for (Pending& pending : pending_)
+      pending.taken = pending.taken || (hasCovariance && std::ranges::count(group.sources, pending.source) > 0);
     auto matrix = readMatrix(reader, hasCovariance ? "covariance" : "correlation", size);
     reader.finish();
     if (!matrix || size < 2) return;
@@ -317,15 +320,26 @@ private:
     if (group.name.back() == '+') group.name.pop_back();
     if (hasCovariance && !takeDeviations(reader, group, *matrix)) return;
     for (Eigen::Index i = 0; i < matrix->rows(); ++i) {
-      if (std::abs((*matrix)(i, i) - 1) > 1e-9 || matrix->row(i).cwiseAbs().maxCoeff() > 1 + 1e-9) {
+      Eigen::Index other = 0;
+      const double greatest = matrix->row(i).cwiseAbs().maxCoeff(&other);
+      if (hasCovariance && greatest > 1 + 1e-9) {
+        const auto nameOf = [&](Eigen::Index at) {
+          return study_.sources[group.sources[static_cast<std::size_t>(at)]].name;
+        };
+        reader.report("covariance", fmt::format("this covariance is not positive semidefinite: that of \"{}\" and "
+                                                "\"{}\" is beyond the product of their standard deviations",
+                                                nameOf(i), nameOf(other)));
+        return;
+      }
+      if (std::abs((*matrix)(i, i) - 1) > 1e-9 || greatest > 1 + 1e-9) {
         reader.report("correlation", "a correlation has 1 on its diagonal and numbers from -1 to 1 elsewhere");
         return;
       }
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(*matrix);
     if (solver.info() != Eigen::Success || solver.eigenvalues().minCoeff() < -1e-9) {
-      reader.report(hasCovariance ? "covariance" : "correlation",
-                    "this matrix is not positive semidefinite: such sources cannot be");
+      const char* key = hasCovariance ? "covariance" : "correlation";
+      reader.report(key, fmt::format("this {} is not positive semidefinite: such sources cannot be", key));
       return;
     }
     group.factor = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
@@ -344,7 +358,6 @@ private:
                       fmt::format("\"{}\" must be normal, without a standard deviation of its own", source.name));
         return false;
       }
-      pending->taken = true;
       if (!(variance > 0) || !std::isfinite(variance)) {
         reader.report("covariance", "the diagonal of a covariance, the squares of the deviations, must be above 0");
         return false;

@@ -199,6 +199,24 @@ TEST(StudyFile, NamesMistakesWithPlaceAndWayOut) {
   EXPECT_THAT(mistakesIn(two + "correlation = [1, 0.5, 0.4, 1]\n"), ::testing::HasSubstr("symmetric"));
   EXPECT_THAT(mistakesIn(two + "covariance = [1, 0, 0, 1]\n"), ::testing::HasSubstr("of its own"));
   EXPECT_THAT(mistakesIn(two), ::testing::HasSubstr("either a covariance or a correlation"));
+  // What is wrong with a covariance is said of it and nothing else.
+  const std::string normals =
+      "[[source]]\nname=\"x\"\nquantity = \"part.pose.x\"\ndistribution = \"normal\"\n"
+      "[[source]]\nname=\"y\"\nquantity = \"part.pose.y\"\ndistribution = \"normal\"\n"
+      "[[group]]\nsources = \"x, y\"\n";
+  for (const auto& [matrix, why] : std::vector<std::pair<std::string, std::string>>{
+           {"[1, 2, 2, 1]", "this covariance is not positive semidefinite: that of \"x\" and \"y\""},
+           {"[4, -2.1, -2.1, 1]", "this covariance is not positive semidefinite: that of \"x\" and \"y\""},
+           {"[1, 0.2, 0.3, 1]", "\"covariance\" must be symmetric"},
+           {"[1, 0.2, 1]", "covariance"},
+           {"[1, 0, 0, -1]", "must be above 0"}}) {
+    Diagnostics mistakes;
+    EXPECT_FALSE(parsed(normals + "covariance = " + matrix + "\n", mistakes)) << matrix;
+    ASSERT_EQ(mistakes.size(), 1U) << matrix << format(mistakes.back());
+    EXPECT_THAT(mistakes.front().message, ::testing::HasSubstr(why));
+    EXPECT_EQ(mistakes.front().place.line, 11U) << "the key";
+  }
+  EXPECT_THAT(mistakesIn(two + "correlation = [1, 0.9, 0.9]\n"), ::testing::Not(::testing::HasSubstr("missing")));
   // A group of sources that there are not has no matrix to look at.
   const std::string of = source + "standard_deviation = 1\n[[group]]\nsources = ";
   for (const char* matrix : {"covariance = [1, 2, 3]\n", "correlation = [1, 2, 3]\n", "correlation = [1]\n"})
