@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -323,6 +324,43 @@ std::vector<std::string> Trials::rebuilt() const {
   return names;
 }
 
+/// Whether there is a setup with these values of these sources; `mistakes` say why not.
+bool hasSetup(const setup::SetupDocument& document, const Sampler& sampler, const std::vector<double>& values,
+              const std::vector<std::size_t>& which, Diagnostics& mistakes) {
+  toml::table table = document.table();
+  for (const std::size_t i : which)
+    if (const auto set = sampler.sources()[i].quantity.set(table, values[i]); !set) mistakes.push_back(set.error());
+  return !hasErrors(mistakes) && document.with(table, mistakes).has_value();
+}
+
+/// Sources that no setup can have: keys that it does not know, values of which none is possible. What is possible in
+/// some trials only is no mistake.
+void checkSources(const setup::SetupDocument& document, const Study& study, Diagnostics& diagnostics) {
+  const Sampler sampler(study);
+  const std::vector<double> estimates = sampler.estimate().inputs;
+  std::vector<std::size_t> all(sampler.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  Diagnostics ofAll;
+  if (hasSetup(document, sampler, estimates, all, ofAll)) return;
+  constexpr std::uint64_t drawn = 10;
+  for (const std::size_t i : all) {
+    Diagnostics mistakes, ignored;
+    bool possible = hasSetup(document, sampler, estimates, {i}, mistakes);
+    for (std::uint64_t trial = 0; trial < drawn && !possible; ++trial)
+      possible = hasSetup(document, sampler, sampler.draw(trial).inputs, {i}, ignored = {});
+    if (possible) continue;
+    const auto mistake = std::ranges::find(mistakes, Severity::Error, &Diagnostic::severity);
+    if (mistake == mistakes.end()) continue;
+    const Source& source = study.sources[i];
+    diagnostics.push_back({Severity::Error,
+                           source.place,
+                           fmt::format("quantity \"{}\": {}", source.quantity.text(), mistake->message),
+                           {},
+                           mistake->advice.empty() ? "name a number that docs/setup-format.md has" : mistake->advice,
+                           {}});
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<ProgramModel> ProgramModel::make(const fs::path& program, setup::SetupDocument setup,
@@ -345,6 +383,10 @@ std::unique_ptr<ProgramModel> ProgramModel::make(const fs::path& program, setup:
     diagnostics.insert(diagnostics.end(), prepared.diagnostics.begin(), prepared.diagnostics.end());
     if (hasErrors(prepared.diagnostics)) return nullptr;
   }
+  Diagnostics wrong;
+  checkSources(setup, study, wrong);
+  diagnostics.insert(diagnostics.end(), wrong.begin(), wrong.end());
+  if (!wrong.empty()) return nullptr;
   auto machine = simulation::buildMachine(setup.asWritten().world, options.import);
   if (!machine) {
     diagnostics.push_back(std::move(machine.error()));

@@ -29,7 +29,8 @@ public:
     simulation::ImportOptions import;  ///< of parts; its stop ends trials, too
   };
 
-  /// Reads the program and builds the world. Null if either fails; mistakes go to `diagnostics`.
+  /// Reads the program and builds the world. Null if either fails, or a source is a number that no setup can have;
+  /// mistakes go to `diagnostics`.
   static std::unique_ptr<ProgramModel> make(const std::filesystem::path& program, setup::SetupDocument setup,
                                             const Study& study, const Options& options, Diagnostics& diagnostics);
   virtual ~ProgramModel() = default;

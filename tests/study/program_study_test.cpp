@@ -333,5 +333,42 @@ TEST(ProgramStudy, NamesMeasurandsThatNoResultFits) {
   EXPECT_THAT(format(result.diagnostics.front()), ::testing::HasSubstr("\"Q999\""));
 }
 
+/// What no setup can have is a mistake of the study, found before the first trial; what some trials cannot have is not.
+TEST(ProgramStudy, RefusesNumbersThatNoSetupHas) {
+  const auto mistakesOf = [](const std::string& quantity, const std::string& distribution) {
+    const TestFolder folder;
+    Diagnostics mistakes;
+    auto document = setup::SetupDocument::parse(plateSetup(), "setup.toml", mistakes);
+    const auto study =
+        parseStudy("trials = 5\n" + place + "[[source]]\nquantity = \"" + quantity + "\"\n" + distribution,
+                   "study.toml", document->table(), mistakes);
+    EXPECT_TRUE(study) << quantity;
+    const bool made = study && ProgramModel::make(folder.file("p.h", program(bore(3, 4))), std::move(*document), *study,
+                                                  {}, mistakes) != nullptr;
+    EXPECT_EQ(made, mistakes.empty()) << quantity;
+    return mistakes;
+  };
+  const std::string uniform = "distribution = \"uniform\"\nminimum = 0.25\nmaximum = 3\n";
+  for (const auto& [quantity, why] : std::vector<std::pair<std::string, std::string>>{
+           {"part.pose.q", "quantity \"part.pose.q\": unknown key \"q\""},
+           {"preset[row=1].rotation", "quantity \"preset[row=1].rotation\": "},
+           {"preset[row=1].row", "must be a whole number from 0 to 9999"},
+           {"tool[1].number", "must be a whole number from 1 to 32767"},
+           {"tool[1].retraction", "unknown key"}}) {
+    const Diagnostics mistakes = mistakesOf(quantity, uniform);
+    ASSERT_EQ(mistakes.size(), 1U) << quantity;
+    EXPECT_THAT(mistakes.front().message, ::testing::HasSubstr(why));
+    EXPECT_EQ(mistakes.front().place.line, 8U);
+    EXPECT_GT(mistakes.front().place.column, 0U);
+    EXPECT_FALSE(mistakes.front().advice.empty());
+  }
+  EXPECT_TRUE(mistakesOf("part.pose.y", uniform).empty());
+  EXPECT_TRUE(
+      mistakesOf("part.feature[2].diameter", "distribution = \"uniform\"\nminimum = -5\nmaximum = 30\n").empty());
+  EXPECT_TRUE(
+      mistakesOf("part.feature[2].diameter", "distribution = \"uniform\"\nminimum = -5\nmaximum = 4\n").empty());
+  EXPECT_TRUE(mistakesOf("part.feature[2].diameter", "distribution = \"discrete\"\nvalues = [-1, 30]\n").empty());
+}
+
 }  // namespace
 }  // namespace probewright::study::testing
