@@ -197,7 +197,9 @@ void Search::beginWithCore() {
   std::vector<double> scales;
   for (double scale = 1; scale > 1e-3; scale /= 2)
     if (failureIn(scaled(scale)) == nullptr) scales.push_back(scale);
-  const auto largest = [&](const std::vector<double>& tried) {
+  const auto largest = [&](std::vector<double>& tried) {
+    tried.resize(std::min<std::size_t>(tried.size(), options_.boxes - result_.boxes));
+    if (tried.empty()) return 0.0;
     std::vector<Box> boxes;
     for (const double scale : tried)
       boxes.push_back(scaled(scale));
@@ -207,7 +209,7 @@ void Search::beginWithCore() {
       if (verdicts[i].verdict == Verdict::Proven) found = std::max(found, tried[i]);
     return found;
   };
-  double core = scales.empty() ? 0 : largest(scales);
+  double core = largest(scales);
   if (core > 0 && core < 1) {
     std::vector<double> between;
     for (int i = 1; i < 8; ++i)
@@ -312,7 +314,8 @@ void Search::refine() {
       untried_.push_back(true);
       untried_[i] = true;
       wants(i);
-      wants(result_.parts.size() - 1);
+      // With one box left, the other half stays untried.
+      if (result_.boxes + boxes.size() < options_.boxes) wants(result_.parts.size() - 1);
     }
     if (boxes.empty()) {
       if (std::ranges::all_of(chosen, [&](std::size_t i) { return final[i]; })) continue;

@@ -182,6 +182,18 @@ TEST(Survive, SaysTheSameOnAnyNumberOfThreads) {
   EXPECT_TRUE(json(3) == one);
 }
 
+TEST(Survive, TriesNoMoreBoxesThanItMay) {
+  const auto program = clamped(plateSetup(), klartext(inspectBore), {"part.pose.x=8", "part.pose.c=0.5"});
+  for (const std::uint64_t boxes : {0, 1, 2, 5, 9, 10, 11, 16, 17, 18, 19, 20, 21, 22, 23}) {
+    const Survival survival = survive(*program, {.samples = 10, .boxes = boxes});
+    EXPECT_LE(survival.boxes, boxes);
+    EXPECT_NEAR(survival.proven + survival.fails + survival.undecided, 1, 1e-9) << boxes;
+    if (boxes == 0) {
+      EXPECT_EQ(survival.proven, 0);
+    }
+  }
+}
+
 TEST(Survive, MakesItsPartsTheWholeBox) {
   const Survival survival =
       survivalOf(plateSetup(), klartext(inspectBore), {"part.pose.x=7", "part.pose.y=7"}, {.samples = 20, .boxes = 60});
