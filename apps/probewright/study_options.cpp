@@ -37,7 +37,7 @@ Subcommand addStudy(CLI::App& app) {
       ->capture_default_str();
   study->add_option("--keep", arguments->keep, "Also keep all values of all trials in this file of HDF5")
       ->type_name("FILE");
-  study->add_flag("--resume", arguments->resume, "Go on where an earlier study in this folder was broken off");
+  study->add_flag("--resume", arguments->resume, "Go on where an earlier study in this folder was interrupted");
   study->add_option("--cache", arguments->cache, "As of run")->type_name("DIR");
   study->add_flag("--quiet", arguments->quiet, "Print nothing but mistakes");
   return {study, [arguments] { return app::study(*arguments); }};

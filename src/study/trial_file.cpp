@@ -25,6 +25,7 @@ namespace {
 constexpr std::string_view heading = "# probewright trials 1 ";
 constexpr std::array<const char*, 4> endNames = {"finished", "alarm", "refused", "cancelled"};
 constexpr std::size_t fixedColumns = 3;
+constexpr const char* noStudyToGoOnWith = "leave out --resume, or name the folder of the interrupted study";
 /// Before the name of a column that holds the true values of another.
 constexpr std::string_view truthOf = "truth of ";
 constexpr std::string_view sourceName = "source ";
@@ -99,11 +100,13 @@ Result<TrialReader> TrialReader::open(const fs::path& path, std::string_view mar
   TrialReader reader;
   reader.file_.open(path, std::ios::binary);
   std::string line;
-  if (!reader.file_) return failErrno(path, "read the trials");
+  if (!reader.file_) {
+    auto failed = failErrno(path, "read the trials");
+    failed.value().advice = noStudyToGoOnWith;
+    return failed;
+  }
   if (!std::getline(reader.file_, line) || !line.starts_with(heading))
-    return fail({path.string(), 1, 1}, "this is not the file of a study's trials",
-                "leave out --resume, or name "
-                "the folder of the study that was broken off");
+    return fail({path.string(), 1, 1}, "this is not the file of a study's trials", noStudyToGoOnWith);
   if (line.substr(heading.size()) != mark)
     return fail({path.string(), 1, 1},
                 "these trials are of another study: program, setup, sources or seed are different",

@@ -149,5 +149,46 @@ TEST(StudyCommand, NamesMistakesOfItsFiles) {
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
+TEST(StudyCommand, RefusesNumbersThatNoSetupHas) {
+  const Folder folder;
+  const Answer refused = probewright(
+      {"study", folder.file("p.h", blockProgram()), "--setup", folder.file("s.toml", blockSetup()), "--study",
+       folder.file("t.toml",
+                   "[[source]]\nquantity = \"part.pose.q\"\ndistribution = \"uniform\"\nminimum = "
+                   "0\nmaximum = 1\n"),
+       "--out", (folder / "out").string()});
+  EXPECT_EQ(refused.exit, 2);
+  EXPECT_THAT(refused.errors, ::testing::HasSubstr("t.toml:2:12: error: quantity \"part.pose.q\": unknown key \"q\""));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/study.json"));
+}
+
+TEST(StudyCommand, SaysThatThereIsNothingToGoOnWith) {
+  const Folder folder;
+  const Answer refused =
+      probewright({"study", folder.file("p.h", blockProgram()), "--setup", folder.file("s.toml", blockSetup()),
+                   "--study", folder.file("t.toml", study), "--out", (folder / "none").string(), "--resume"});
+  EXPECT_EQ(refused.exit, 2);
+  EXPECT_THAT(refused.errors, ::testing::HasSubstr("cannot read the trials"));
+  EXPECT_THAT(refused.errors, ::testing::HasSubstr("leave out --resume, or name the folder of the interrupted study"));
+}
+
+TEST(StudyCommand, EndsWithoutAResultWhereEveryTrialIsStopped) {
+  const Folder folder;
+  const Answer done = probewright(
+      {"study", folder.file("p.h", blockProgram()), "--setup", folder.file("s.toml", blockSetup()), "--study",
+       folder.file("t.toml",
+                   "block = 20\nsensitivity = \"none\"\n[[source]]\nname = \"aside\"\nquantity = "
+                   "\"part.pose.x\"\ndistribution = \"normal\"\nmean = 300\nstandard_deviation = "
+                   "0.001\n"),
+       "--out", (folder / "out").string()});
+  EXPECT_EQ(done.exit, 3);
+  EXPECT_THAT(done.output, ::testing::HasSubstr("no trial came to its end: nothing was measured"));
+  const json document = studyIn(folder);
+  EXPECT_EQ(document["end"], "no result");
+  EXPECT_EQ(document["trials"], 20);
+  EXPECT_EQ(expectedMistakes(document), "");
+  ASSERT_FALSE(document["alarms"].empty());
+}
+
 }  // namespace
 }  // namespace probewright::app::testing
