@@ -48,13 +48,15 @@ public:
         // Near the minimum the cost is flat to its last digit while the steps still shrink: then they are the measure.
         const bool shrinks = length < 1e-6 && length < 0.9 * lastLength && trialCost <= cost_ * (1 + 1e-12);
         if (trialCost <= cost_ || shrinks) {
+          // Steps that neither shrink nor lower the cost are rounding noise, larger the flatter the minimum is.
+          const bool noise = length < 1e-9 && length >= 0.9 * lastLength && !(trialCost < cost_ * (1 - 1e-9));
           lastLength = length;
           state_ = std::move(candidate);
           residuals_.swap(trialResiduals_);
           jacobian_.swap(trialJacobian_);
           cost_ = trialCost;
           damping = damping < 1e-8 ? 0 : damping / 10;
-          if (length < stepLimit) return true;
+          if (length < stepLimit || noise) return true;
           break;
         }
         // A step of this size that does not improve is rounding noise at the minimum.

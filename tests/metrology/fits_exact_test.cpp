@@ -62,6 +62,27 @@ TEST(ExactPoints, Circle) {
   }
 }
 
+/// A circle passes through any three points of a short arc, and it is that of the perpendicular bisectors.
+TEST(ExactPoints, CircleThroughThreePointsOfAShortArc) {
+  for (std::uint64_t seed = 0; seed < 4000; ++seed) {
+    World world(seed);
+    const double start = world.between(0, 6), step = radiansFromDegrees(world.between(8, 20));
+    std::vector<Vector2> points;
+    for (int i = 0; i < 3; ++i)
+      points.push_back((12 + world.between(-0.01, 0.01)) *
+                       Vector2(std::cos(start + i * step), std::sin(start + i * step)));
+    const auto fit = fitCircle(std::span<const Vector2>(points));
+    ASSERT_TRUE(fit) << "seed " << seed << ": " << fit.error().message;
+    const Vector2 a = points[1] - points[0], b = points[2] - points[0];
+    const double twice = 2 * (a.x() * b.y() - a.y() * b.x());
+    const Vector2 centre = points[0] + Vector2(b.y() * a.squaredNorm() - a.y() * b.squaredNorm(),
+                                               a.x() * b.squaredNorm() - b.x() * a.squaredNorm()) /
+                                           twice;
+    EXPECT_LT((fit->shape.centre - centre).norm(), exact) << "seed " << seed;
+    EXPECT_NEAR(fit->shape.radius, (points[0] - centre).norm(), exact) << "seed " << seed;
+  }
+}
+
 TEST(ExactPoints, CircleInSpaceAndInAGivenPlane) {
   for (std::uint64_t seed = 0; seed < worlds; ++seed) {
     World world(seed);
