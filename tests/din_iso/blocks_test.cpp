@@ -189,7 +189,7 @@ TEST(DinIso, MistakesNamePlaceAndReason) {
   EXPECT_EQ(resolvedText("%A *\n"), "1:4: G71 (mm) or G70 (inch) is expected after the name of the program");
   EXPECT_THAT(resolvedText("%A G71 *\nN10 %\"\" *\n"),
               ::testing::HasSubstr("the name of a program is expected after %"));
-  EXPECT_EQ(resolvedText("G421 Q273=+1 Q273=+2 *"), "1:22: Q273 is given twice in this cycle");
+  EXPECT_EQ(resolvedText("G421 Q273=+1 Q273=+2 *"), "1:14: Q273 is given twice in this cycle");
   EXPECT_EQ(resolvedText("D09 P01 +Q1 P02 +2 *"), "1:20: P03 with the label to jump to is expected here");
   EXPECT_EQ(resolvedText("G25 X+5 R3 *"), "1:12: G25 takes no X");
   EXPECT_EQ(resolvedText("G98 *"), "1:5: L with the number or name of the label is expected after G98");

@@ -92,7 +92,7 @@ TEST(Cycles, SettingsAndMachiningCycles) {
 }
 
 TEST(Cycles, Mistakes) {
-  EXPECT_EQ(irOf("TCH PROBE 411 X ~\n Q321=+50 ~\n Q321=+60"), "3:10: Q321 is given twice in this cycle");
+  EXPECT_EQ(irOf("TCH PROBE 411 X ~\n Q321=+50 ~\n Q321=+60"), "3:2: Q321 is given twice in this cycle");
   EXPECT_EQ(irOf("TCH PROBE 0.1 X+5"), "1:14: this part of a touch probe cycle stands alone");
   EXPECT_EQ(irOf("TCH PROBE 0.0 REF Q5 X-\nL X+1"), "Linear X=1\n1:24: part 0.1 of this touch probe cycle is missing");
   EXPECT_EQ(irOf("TCH PROBE 1 X ~\n Q1=2"), "1:12: touch probe cycle 1 is written in parts");

@@ -33,8 +33,8 @@ void expectSaid(const std::vector<Mistake>& mistakes) {
 TEST(Mistakes, OfPathBlocks) {
   expectSaid(
       {{"L X+", "3:5: a number or a Q parameter is expected for X"},
-       {"L X+1 X+2 FMAX", "3:15: X is given twice in this block"},
-       {"L X+1 IX+2 FMAX", "3:16: X is given twice in this block"},
+       {"L X+1 X+2 FMAX", "3:7: X is given twice in this block"},
+       {"L X+1 IX+2 FMAX", "3:7: X is given twice in this block"},
        {"L X+5 RX", "3:8: a number or a Q parameter is expected for the radius R"},
        {"L X+1e5 FMAX", "3:6: an axis, R0/RL/RR, F or M is expected here"},
        {"APPR LT X+5", "3:12: LEN with the length of the line is expected in this block"},
@@ -127,7 +127,7 @@ TEST(Mistakes, OfCyclesInParts) {
        {"TCH PROBE 0.0 REF Q5 X-", "3:24: part 0.1 of this touch probe cycle is missing"},
        {"TCH PROBE 0.0 REF Q5 X\nTCH PROBE 0.1 X+5", "3:23: the probing direction + or - is expected after the axis"},
        {"TCH PROBE 17 X", "3:13: touch probe cycle 17 is written in parts"},
-       {"CYCL DEF 200 X ~\nQ200=2 ~\nQ200=3", "5:7: Q200 is given twice in this cycle"}});
+       {"CYCL DEF 200 X ~\nQ200=2 ~\nQ200=3", "5:1: Q200 is given twice in this cycle"}});
 }
 
 TEST(Mistakes, OfFunctionsAndFormulas) {
@@ -181,7 +181,7 @@ TEST(Mistakes, LabelIsWrittenLbl) {
 TEST(Mistakes, OfPlanesAndTransformations) {
   expectSaid({{"PLANE SPATIAL TURN FMAX", "3:24: the values that define the plane are missing"},
               {"PLANE SPATIAL SPAX TURN", "3:18: a number or a Q parameter is expected for SPA"},
-              {"PLANE VECTOR BX0 NZ1 STAY", "Plane definition wrong: the base vector has no length"},
+              {"PLANE VECTOR BX0 BY0 BZ0 NX0 NY0 NZ1 STAY", "Plane definition wrong: the base vector has no length"},
               {"TRANS DATUM", "3:12: AXIS, TABLE or RESET is expected after TRANS DATUM"},
               {"TRANS DATUM AXIS", "3:17: an axis with its shift is expected here"},
               {"TRANS DATUM TABLE TABLINE 5", "Datum table missing: No datum table is selected"},

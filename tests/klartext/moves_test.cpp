@@ -45,7 +45,7 @@ TEST(Moves, Arcs) {
   EXPECT_EQ(irOf("C X+45 Y+25"), "Modal X=45 Y=25");
   EXPECT_EQ(irOf("CR X+70 Y+40 R-20 DR- R0 F150"), "Arc- X=70 Y=40 R=-20 DR=-1 R0 F=150");
   EXPECT_EQ(irOf("CR X+70 Y+40 DR-"), "1:17: an arc CR needs its radius R");
-  EXPECT_EQ(irOf("CR X+70 R+ DR-"), "1:15: an arc CR needs its radius R");
+  EXPECT_EQ(irOf("CR X+70 R+ DR-"), "1:9: CR takes no R+");
   EXPECT_EQ(irOf("CT X+45 Y+20"), "ArcTangential X=45 Y=20");
 }
 

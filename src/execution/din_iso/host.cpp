@@ -1,5 +1,6 @@
 #include "execution/din_iso/host.hpp"
 
+#include "control/alarm.hpp"
 #include "execution/evaluation.hpp"
 #include "language/din_iso/program.hpp"
 
@@ -44,6 +45,8 @@ void DinIsoHost::execute(const Instruction& instruction, Evaluation& evaluation)
   const auto index = static_cast<std::size_t>(&instruction - block.instructions.data());
   const Instruction& complete = resolved_.instructions[index];
   if (const auto* modal = std::get_if<Modal>(&complete); modal != nullptr && isModalFunction(resolved_, *modal)) return;
+  if (state_.mistake && std::holds_alternative<Move>(complete))
+    throw control::Alarm("Block format incorrect", state_.mistake->message, state_.mistake->advice);
   Evaluation completed(evaluation.program(), resolved_, *this);
   klartext_.execute(complete, completed);
 }

@@ -173,6 +173,35 @@ void Motion::namePathWords(const Move& move, Evaluation& evaluation) {
   }
 }
 
+/// Refuses an axis of the plane beside polar coordinates, which say where it goes themselves.
+void Motion::refuseMixture(const Move& move, const control::WorkingPlane& plane, Evaluation& evaluation) const {
+  if (!move.polar) return;
+  for (const Word& word : evaluation.words(move.words)) {
+    const char letter = axisLetter(word);
+    if (!isLinearAxis(letter) || letter - 'X' == plane.tool) continue;
+    throw Alarm("Block format incorrect",
+                fmt::format("Beside polar coordinates only {:c} may stand, not {:c}, which lies in their plane",
+                            'X' + plane.tool, letter),
+                fmt::format("take {:c} away, or write the end point in X, Y, Z", letter));
+  }
+}
+
+/// Where PR and PA lead to from `start`; what is not given stays as it is there.
+Vector2 Motion::polarEnd(const Move& move, const Vector2& start, const Vector2& pole, Evaluation& evaluation) const {
+  const Vector2 arm = start - pole;
+  double radius = arm.norm();
+  double angle = std::atan2(arm.y(), arm.x());
+  if (const Word* pr = find(move.words, "PR", evaluation)) {
+    const double value = run_.length(pr->value, evaluation);
+    radius = pr->mode == WordMode::Incremental ? radius + value : value;
+  }
+  if (const Word* pa = find(move.words, "PA", evaluation)) {
+    const double value = radiansFromDegrees(evaluation.number(pa->value));
+    angle = pa->mode == WordMode::Incremental ? angle + value : value;
+  }
+  return pole + radius * Vector2(std::cos(angle), std::sin(angle));
+}
+
 /// M130: the end point in coordinates of the workpiece system that is not tilted, as the tilted one sees it.
 ProgramPlace Motion::untiltedTarget(const Move& move, Evaluation& evaluation, const ProgramPlace& from) const {
   const control::heidenhain::Coordinates& coordinates = control_.coordinates;
@@ -234,23 +263,13 @@ void Motion::straight(const Move& move, Evaluation& evaluation) {
   }
   if (move.polar) {
     const control::WorkingPlane plane = polePlane_.value_or(control_.coordinates.plane);
+    refuseMixture(move, plane, evaluation);
     if (!poleSet_)
       throw Alarm("Pole missing", "There is no pole for polar coordinates", "program CC before this block");
     const PlanePlace start = plane.planeFromXyz(from);
     const PlanePlace pole = plane.planeFromXyz(pole_);
-    const Vector2 arm(start.x() - pole.x(), start.y() - pole.y());
-    double radius = arm.norm();
-    double angle = std::atan2(arm.y(), arm.x());
-    if (const Word* pr = find(move.words, "PR", evaluation)) {
-      const double value = run_.length(pr->value, evaluation);
-      radius = pr->mode == WordMode::Incremental ? radius + value : value;
-    }
-    if (const Word* pa = find(move.words, "PA", evaluation)) {
-      const double value = radiansFromDegrees(evaluation.number(pa->value));
-      angle = pa->mode == WordMode::Incremental ? angle + value : value;
-    }
-    to = plane.xyzFromPlane(PlanePlace(pole.x() + radius * std::cos(angle), pole.y() + radius * std::sin(angle),
-                                       plane.planeFromXyz(to).z()));
+    const Vector2 end = polarEnd(move, start.inPlane(), pole.inPlane(), evaluation);
+    to = plane.xyzFromPlane(PlanePlace(end.x(), end.y(), plane.planeFromXyz(to).z()));
   }
   const Feed feed = feedOf(move, evaluation);
   const bool waits = cornerFollows(evaluation);

@@ -59,6 +59,9 @@ private:
   ProgramPlace programmedPosition() const;
   control::Feed feedOf(const Move& move, Evaluation& evaluation);
   control::Feed feedFor(double programmed) const;
+  Vector2 polarEnd(const Move& move, const Vector2& start, const Vector2& pole, Evaluation& evaluation) const;
+  void refuseMixture(const Move& move, const control::WorkingPlane& plane, Evaluation& evaluation) const;
+  void nameOtherAxes(const Move& move, Evaluation& evaluation);
   void namePathWords(const Move& move, Evaluation& evaluation);
   ProgramPlace untiltedTarget(const Move& move, Evaluation& evaluation, const ProgramPlace& from) const;
   void straightTo(const ProgramPlace& to, control::Feed feed);

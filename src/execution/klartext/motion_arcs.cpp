@@ -30,11 +30,22 @@ void Motion::addElement(Element element, const Move& move, Evaluation& evaluatio
   contour_.add(element, cornerFollows(evaluation));
 }
 
+/// Axes of an arc's block that stay where they are here.
+void Motion::nameOtherAxes(const Move& move, Evaluation& evaluation) {
+  for (const Word& word : evaluation.words(move.words)) {
+    const char letter = axisLetter(word);
+    if (letter != '\0' && !isLinearAxis(letter))
+      run_.leaveOut(fmt::format("The axis {} in the block of an arc", letter));
+  }
+}
+
 void Motion::arc(const Move& move, Evaluation& evaluation) {
+  nameOtherAxes(move, evaluation);
   const Word* radiusWord = find(move.words, "R", evaluation);
   const bool needsPole = move.polar || (move.kind != MoveKind::ArcTangential && radiusWord == nullptr);
   const bool beside = needsPole && polePlane_.has_value();
   const control::WorkingPlane plane = beside ? *polePlane_ : control_.coordinates.plane;
+  refuseMixture(move, plane, evaluation);
   if (beside) contour_.flush();
   const ProgramPlace from3 = programmedPosition();
   const PlanePlace from = plane.planeFromXyz(from3);
@@ -55,17 +66,7 @@ void Motion::arc(const Move& move, Evaluation& evaluation) {
   const double direction = arcDirection_;
 
   if (move.kind == MoveKind::ArcTangential) {
-    if (move.polar) {
-      const Vector2 arm = element.from - pole;
-      double radius = arm.norm();
-      double angle = std::atan2(arm.y(), arm.x());
-      if (const Word* pr = find(move.words, "PR", evaluation)) radius = run_.length(pr->value, evaluation);
-      if (const Word* pa = find(move.words, "PA", evaluation)) {
-        const double value = radiansFromDegrees(evaluation.number(pa->value));
-        angle = pa->mode == WordMode::Incremental ? angle + value : value;
-      }
-      element.to = pole + radius * Vector2(std::cos(angle), std::sin(angle));
-    }
+    if (move.polar) element.to = polarEnd(move, element.from, pole, evaluation);
     if (contour_.direction().isZero(0)) {
       throw Alarm("Tangential arc not permitted", "There is no contour element before CT",
                   "program the element that the arc joins");
@@ -180,6 +181,8 @@ void Motion::corner(const Move& move, Evaluation& evaluation) {
 
 void Motion::approachOrDepart(const Move& move, Evaluation& evaluation) {
   const control::WorkingPlane& plane = control_.coordinates.plane;
+  nameOtherAxes(move, evaluation);
+  refuseMixture(move, plane, evaluation);
   Approach way;
   const std::string_view variant = evaluation.at(move.variant);
   const auto is = [&](char a, char b) { return upper(variant[0]) == a && upper(variant[1]) == b; };
@@ -194,15 +197,8 @@ void Motion::approachOrDepart(const Move& move, Evaluation& evaluation) {
       throw Alarm("Pole missing", "There is no pole for polar coordinates", "program CC before this block");
     const PlanePlace pole = plane.planeFromXyz(pole_);
     const PlanePlace start = plane.planeFromXyz(from);
-    Vector2 arm(start.x() - pole.x(), start.y() - pole.y());
-    double radius = arm.norm();
-    double angle = std::atan2(arm.y(), arm.x());
-    if (const Word* pr = find(move.words, "PR", evaluation)) radius = run_.length(pr->value, evaluation);
-    if (const Word* pa = find(move.words, "PA", evaluation)) {
-      angle = radiansFromDegrees(evaluation.number(pa->value));
-    }
-    to = plane.xyzFromPlane(PlanePlace(pole.x() + radius * std::cos(angle), pole.y() + radius * std::sin(angle),
-                                       plane.planeFromXyz(to).z()));
+    const Vector2 end = polarEnd(move, start.inPlane(), pole.inPlane(), evaluation);
+    to = plane.xyzFromPlane(PlanePlace(end.x(), end.y(), plane.planeFromXyz(to).z()));
   }
   const PlanePlace point = plane.planeFromXyz(to);
   way.point = point.inPlane();

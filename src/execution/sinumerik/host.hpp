@@ -103,6 +103,7 @@ private:
   /// SINUMERIK programs call cycles as programs.
   void carryOut(const language::CycleCall&, Evaluation&) {}
 
+  void chooseMotion(std::string_view name);
   void carryOutG(int number);
   void carryOutGroup(int group, int number);
   void setSpeed(std::span<const language::Word> words, Evaluation& evaluation);

@@ -11,6 +11,7 @@
 #include "execution/sinumerik/spindle_speed.hpp"
 #include "geometry/decompositions.hpp"
 #include "language/sinumerik/check.hpp"
+#include "language/sinumerik/keywords.hpp"
 #include "language/sinumerik/statement_kinds.hpp"
 
 /// G functions, by number, by their place in a group, and by name.
@@ -84,8 +85,16 @@ void SinumerikHost::carryOut(const Modal& modal, Evaluation& evaluation) {
       control_.frames.toolOriented = {};
       return control_.handOverFrames();
     case ModalKind::Other:
+      if (language::sinumerik::keywordOf(name) == language::sinumerik::Keyword::Motion) chooseMotion(name);
       return;
   }
+}
+
+/// CIP, CT, and the splines, whose lines go straight.
+void SinumerikHost::chooseMotion(std::string_view name) {
+  state_.thread = 0;
+  state_.otherPath = name != "CIP" && name != "CT";
+  state_.group1 = name == "CIP" ? MoveKind::ArcThroughPoint : name == "CT" ? MoveKind::ArcTangential : MoveKind::Linear;
 }
 
 /// S; S2= and S[2]= are the speeds of other spindles.
@@ -141,6 +150,7 @@ void SinumerikHost::carryOutG(int number) {
                                            MoveKind::ArcCounterclockwise};
       state_.group1 = kinds[number];
       state_.thread = 0;
+      state_.otherPath = false;
       groups[1] = number + 1;
       return;
     }
@@ -153,6 +163,7 @@ void SinumerikHost::carryOutG(int number) {
     case 335:
     case 336:
       state_.group1 = MoveKind::Linear;
+      state_.otherPath = false;
       state_.thread = number == 63 ? 0 : number;  // G63 has a feed of its own
       return;
     case 291:

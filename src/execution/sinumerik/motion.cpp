@@ -11,6 +11,7 @@
 #include "control/sinumerik/text.hpp"
 #include "execution/motion/plane_curve.hpp"
 #include "execution/sinumerik/spindle_speed.hpp"
+#include "language/sinumerik/block_words.hpp"
 
 namespace probewright::execution::sinumerik {
 
@@ -81,6 +82,7 @@ void PathMotion::carryOut(const Move& move, Evaluation& evaluation) {
   if (move.kind != MoveKind::Modal) {
     state_.group1 = move.kind;
     state_.thread = 0;
+    state_.otherPath = false;
   }
   // G34 and G35: F is how fast the pitch changes.
   const bool changesPitch = state_.thread == 34 || state_.thread == 35;
@@ -90,6 +92,7 @@ void PathMotion::carryOut(const Move& move, Evaluation& evaluation) {
     flush();
     return moveWithoutFrames(move, evaluation);
   }
+  checkWords(move, evaluation);
   Words words = read(move.words, evaluation);
   const MoveKind kind = state_.group1;
   if ((words.angle || openLine_) && !resolveAngle(words, kind)) return;
@@ -99,6 +102,40 @@ void PathMotion::carryOut(const Move& move, Evaluation& evaluation) {
   element.feed = feed(kind, element.start, element.end);
   direction_ = element.endDirection();
   append(element, cornerOf(words, element.feed));
+}
+
+/// Refuses words that do not belong to the motion in force.
+void PathMotion::checkWords(const Move& move, Evaluation& evaluation) const {
+  const auto words = evaluation.words(move.words);
+  // Axes alone belong to every motion.
+  if (std::ranges::all_of(words, [](const Word& word) { return word.address >= 'X' && word.address <= 'Z'; })) return;
+  using language::sinumerik::Takes;
+  Takes takes = Takes::Line;
+  std::string name = state_.group1 == MoveKind::Rapid ? "G0" : "G1";
+  switch (state_.group1) {
+    case MoveKind::ArcClockwise:
+    case MoveKind::ArcCounterclockwise:
+      takes = Takes::Arc;
+      name = state_.group1 == MoveKind::ArcClockwise ? "G2" : "G3";
+      break;
+    case MoveKind::ArcThroughPoint:
+      takes = Takes::Points;
+      name = "CIP";
+      break;
+    case MoveKind::ArcTangential:
+      takes = Takes::Tangent;
+      name = "CT";
+      break;
+    default:
+      if (state_.thread != 0) {
+        takes = Takes::Thread;
+        name = fmt::format("G{}", state_.thread);
+      } else if (state_.otherPath) {
+        takes = Takes::Spline;
+      }
+  }
+  const auto mistake = language::sinumerik::wordMistake(takes, name, evaluation.block(), move.words, control_.plane);
+  if (mistake) throw Alarm(std::string(mistake->alarm), mistake->message, mistake->advice);
 }
 
 void PathMotion::moveStraight(const Words& words, MoveKind kind) {

@@ -34,6 +34,7 @@ struct MotionState {
   double speedBefore = 0;             ///< S before G96, rev/min
   int spindleDirection = 5;           ///< 3, 4, 5
   int thread = 0;                     ///< 33, 34, 35, 331, 332: lines whose feed is pitch times speed; 0: none
+  bool otherPath = false;             ///< a spline, a polynomial, an involute: its lines go straight
   double pitch = 0;                   ///< of the last thread, mm along its axis
   bool rpyAngles = false;             ///< ORIRPY, ORIRPY2: A2, B2, C2 are RPY angles, not Euler angles
   bool rpyAboutX = false;             ///< ORIRPY2: they turn about X first
@@ -120,6 +121,7 @@ private:
   Vector3 start() const;
   Vector3 endOf(const Words& words) const;
   control::Feed feed(language::MoveKind kind, const Vector3& from, const Vector3& to) const;
+  void checkWords(const language::Move& move, Evaluation& evaluation) const;
   void moveStraight(const Words& words, language::MoveKind kind);
   PathElement arc(const Words& words, language::MoveKind kind) const;
   PathElement arcAboutCentre(const Words& words, bool clockwise, Vector3 from, Vector3 to) const;

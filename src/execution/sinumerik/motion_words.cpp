@@ -15,6 +15,13 @@ using control::Feed;
 
 namespace {
 
+/// AX[axis]= may name an axis that the block has already.
+void refuseTwice(bool given, std::uint32_t address) {
+  if (given)
+    throw Alarm("12010", fmt::format("the axis {} appears twice in this block", addressName(address)),
+                "write each axis once in a block");
+}
+
 double turnsTowards(double current, double angle) { return angle + 360 * std::round((current - angle) / 360); }
 
 }  // namespace
@@ -58,6 +65,7 @@ void PathMotion::readAxis(std::uint32_t address, WordMode mode, double value, Wo
       throw Alarm("12080", fmt::format("the machine has no axis {}", addressName(address)),
                   "the machine's description names its axes");
     }
+    refuseTwice(words.target.linear[*linear].has_value(), address);
     words.target.linear[*linear] = to;
     words.anyLinear = true;
     return;
@@ -67,6 +75,7 @@ void PathMotion::readAxis(std::uint32_t address, WordMode mode, double value, Wo
     throw Alarm("12080", fmt::format("the machine has no axis {} that a program can move", addressName(address)),
                 "the machine's description names its axes");
   }
+  refuseTwice(words.target.rotary[*axis].has_value(), address);
   words.target.rotary[*axis] = rotaryTarget(*axis, mode, value);
   words.anyRotary = true;
 }
@@ -261,6 +270,9 @@ void PathMotion::resolvePolar(Words& words) const {
   double radius = std::hypot(from[plane.main], from[plane.minor]);
   if (words.polarAngle) angle = (words.polarAngleIncremental ? angle : 0) + *words.polarAngle;
   if (words.polarRadius) radius = (words.polarRadiusIncremental ? radius : 0) + *words.polarRadius;
+  if (words.target.linear[static_cast<std::size_t>(plane.main)] ||
+      words.target.linear[static_cast<std::size_t>(plane.minor)])
+    throw Alarm("14280", "the end point is polar and Cartesian", "write AP and RP, or the axes of the plane");
   words.target.linear[static_cast<std::size_t>(plane.main)] =
       state_.pole[plane.main] + radius * std::cos(radiansFromDegrees(angle));
   words.target.linear[static_cast<std::size_t>(plane.minor)] =

@@ -84,6 +84,7 @@ void ModalState::resolve(const Block& block, Block& resolved) {
   resolved = block;
   // Words without a mode of their own stand before the block's first G90 or G91: for them the one before it holds.
   const bool before = incremental;
+  mistake.reset();
   for (Instruction& instruction : resolved.instructions) {
     if (auto* modal = std::get_if<Modal>(&instruction)) {
       if (!isModalFunction(resolved, *modal)) continue;
@@ -111,6 +112,7 @@ void ModalState::resolve(const Block& block, Block& resolved) {
       toolCalled = toolCalled || tool;
     } else if (auto* move = std::get_if<Move>(&instruction)) {
       if (move->kind == MoveKind::Modal && resolved.at(move->variant) == "G") {
+        mistake = pathMistake(path, resolved, *move);
         resolvePath(*move, path, before, resolved);
       } else if (move->kind == MoveKind::SetCentre) {
         for (std::uint32_t i = 0; i < move->words.count; ++i)

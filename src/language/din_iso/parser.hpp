@@ -90,6 +90,10 @@ private:
   WordMode mode_ = WordMode::Plain;
   int function_ = -1;  ///< G function that decides what the block does
   bool motion_ = false;
+  int path_ = -1;                  ///< the path function of this block, if it has one
+  int axisFunction_ = -1;          ///< G17, G18, G19
+  int compensationFunction_ = -1;  ///< G40 to G44
+  bool feedGiven_ = false;
   char axis_ = 0;  ///< of G17, G18, G19
   std::array<Word, mostWords> coordinates_{};
   std::size_t coordinateCount_ = 0;

@@ -4,6 +4,7 @@
 
 #include "language/din_iso/block_extent.hpp"
 #include "language/din_iso/parser.hpp"
+#include "language/din_iso/path_words.hpp"
 #include "language/klartext/program.hpp"
 
 namespace probewright::language::din_iso {
@@ -93,6 +94,28 @@ FramePart DinIsoProgram::framePart(const Block& block) const {
   if (block.position.offset == first_) return FramePart::Begin;
   const bool end = block.instructions.size() == 1 && std::holds_alternative<EndProgram>(block.instructions.front());
   return end ? FramePart::End : FramePart::Statement;
+}
+
+std::optional<klartext::ModalMistake> DinIsoProgram::modalMistake(const Block& block) {
+  if (block.position.offset == first_) path_.reset();
+  const std::optional<int> own = pathOf(block);
+  if (own) path_ = own;
+  std::optional<klartext::ModalMistake> found;
+  for (const Instruction& instruction : block.instructions) {
+    const auto* move = std::get_if<Move>(&instruction);
+    if (move != nullptr && path_ && block.at(move->variant) == "G" && !found) {
+      if (std::optional<PathMistake> mistake = pathMistake(*path_, block, *move))
+        found = klartext::ModalMistake{mistake->word, std::move(mistake->message), std::move(mistake->advice)};
+    }
+    const auto* command = std::get_if<Command>(&instruction);
+    const bool leaves = std::holds_alternative<LabelMark>(instruction) ||
+                        std::holds_alternative<CallLabel>(instruction) ||
+                        std::holds_alternative<CallProgram>(instruction) ||
+                        (command != nullptr && klartext::kindOf(block, *command) == klartext::CommandKind::CycleCall);
+    if (leaves) path_.reset();
+  }
+  if (own && block.skippable) path_.reset();
+  return found;
 }
 
 const FrameWords& DinIsoProgram::frameWords() const {

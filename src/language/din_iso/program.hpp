@@ -37,6 +37,7 @@ public:
   klartext::Unit unit() const override { return unit_; }
   klartext::FramePart framePart(const Block& block) const override;
   const klartext::FrameWords& frameWords() const override;
+  std::optional<klartext::ModalMistake> modalMistake(const Block& block) override;
 
 private:
   explicit DinIsoProgram(SourceText source);
@@ -56,6 +57,7 @@ private:
   BlockPosition begin_;
   std::uint64_t first_ = 0;  ///< offset of the first statement
   klartext::Unit unit_ = klartext::Unit::Millimetre;
+  std::optional<int> path_;  ///< for modalMistake: the path function in force, if it is known
   bool labelsIndexed_ = false;
   std::unordered_map<std::string, BlockPosition> labels_;
 };

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "language/din_iso/parser.hpp"
+#include "language/din_iso/path_words.hpp"
 
 /// Blocks of words: G functions, coordinates, F, S, T and M. The words are gathered first, for G functions may stand
 /// anywhere in the block.
@@ -11,10 +13,6 @@ namespace probewright::language::din_iso {
 namespace {
 
 constexpr std::string_view axisLetters = "XYZABCUVW";
-
-bool isPath(int number) {
-  return number <= 3 || (number >= 5 && number <= 7) || (number >= 10 && number <= 13) || number == 15 || number == 16;
-}
 
 /// G functions that decide what a block does.
 bool isFunction(int number) {
@@ -50,6 +48,10 @@ bool BlockParser::wordOf(char address) {
       const std::optional<Operand> found = value({&address, 1});
       if (!found) return false;
       added.value = *found;
+      for (std::size_t i = 0; i < centreCount_; ++i) {
+        if (centre_[i].address == added.address)
+          return errorAt(added, fmt::format("{} is given twice in this block", address), "remove one of the two");
+      }
       ++centreCount_;
       return true;
     }
@@ -57,6 +59,8 @@ bool BlockParser::wordOf(char address) {
     case 'H':
       return coordinate(address, address == 'R' ? "the radius R" : "the angle H");
     case 'F': {
+      if (std::exchange(feedGiven_, true))
+        return error("the feed is given twice in this block", "remove one of the two");
       bool rapid = false;
       const std::size_t first = block_.words.size();
       if (!feedWord(move_.feed, &rapid, &move_.autoFeed)) return false;
@@ -114,9 +118,18 @@ bool BlockParser::preparatory() {
       return error("a block has one path function only", "write the other one in a block of its own");
     }
     motion_ = true;
+    path_ = number;
     emit(Modal{constant(fmt::format("G{}", number)), {}});
     return true;
   }
+  const auto once = [&](int& group, std::string_view what) {
+    const int other = std::exchange(group, number);
+    if (other < 0) return true;
+    lexer_.seek(start);
+    return error(fmt::format("G{} and G{} are two {} in one block", other, number, what), "remove one of the two");
+  };
+  if (number >= 17 && number <= 19 && !once(axisFunction_, "tool axes")) return false;
+  if (number >= 40 && number <= 44 && !once(compensationFunction_, "radius compensations")) return false;
   switch (number) {
     case 17:
     case 18:
@@ -140,6 +153,7 @@ bool BlockParser::preparatory() {
       added.address = addressOf("R");
       added.mode = WordMode::DirectShortest;
       added.value = Operand::of(number == 43 ? 1 : -1);
+      added.column = lexer_.column() - 3;
       return true;
     }
     case 70:
@@ -203,7 +217,7 @@ bool BlockParser::coordinate(char address, std::string_view what) {
     added.value = *found;
   }
   if (find({&address, 1}) != nullptr && find({&address, 1})->mode != WordMode::DirectShortest) {
-    return error(fmt::format("{} is given twice in this block", address), "remove one of the two");
+    return errorAt(added, fmt::format("{} is given twice in this block", address), "remove one of the two");
   }
   coordinates_[coordinateCount_++] = added;
   return true;
@@ -229,6 +243,8 @@ bool BlockParser::parameterWord() {
   const std::optional<Operand> found = value(fmt::format("the parameter P{:02}", number));
   if (!found) return false;
   added.value = *found;
+  if (parameter(added.address) != nullptr)
+    return errorAt(added, fmt::format("P{:02} is given twice in this block", number), "remove one of the two");
   parameters_[parameterCount_++] = added;
   return true;
 }
@@ -320,6 +336,10 @@ bool BlockParser::emitPath() {
   block_.words.insert(block_.words.end(), coordinates_.begin(),
                       coordinates_.begin() + static_cast<std::ptrdiff_t>(coordinateCount_));
   move_.words = wordsSince(first);
+  if (path_ >= 0) {
+    if (std::optional<PathMistake> mistake = pathMistake(path_, block_, move_))
+      return errorAt(mistake->word, std::move(mistake->message), std::move(mistake->advice));
+  }
   const Instruction instruction = move_;
   emitWithMachineFunctions(&instruction);
   return true;

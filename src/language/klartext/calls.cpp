@@ -129,7 +129,9 @@ bool BlockParser::cycleCall() {
     command.text = constant("POS");
   }
   Move words;
-  if (!moveWords(words)) return false;
+  const std::string_view form = block_.at(command.text);
+  if (!moveWords(words, pathWords(form.empty() ? "CYCL CALL" : form == "POS" ? "CYCL CALL POS" : "CYCL CALL PAT")))
+    return false;
   if (words.feed.present()) addWord(addressOf("F"), words.feed);
   command.words = wordsSince(first);
   command.name = constant(nameOf(CommandKind::CycleCall));

@@ -48,6 +48,8 @@ public:
       if (endsOpen(block_.at(block_.source))) nameOpenEnd();
       for (const Instruction& instruction : block_.instructions)
         std::visit([this](const auto& i) { look(i); }, instruction);
+      if (std::optional<ModalMistake> mistake = program_.modalMistake(block_))
+        reportAt(mistake->word, std::move(mistake->message), std::move(mistake->advice));
       for (StatementNotes::Note& note : notes_.of(block_))
         reportHere(std::move(note.message), std::move(note.advice), note.severity);
       if (foresees_ && dividesByZero(block_)) {

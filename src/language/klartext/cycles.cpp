@@ -92,15 +92,17 @@ bool BlockParser::parameterCycle(std::string_view kind, int number) {
 }
 
 bool BlockParser::cycleParameters(std::size_t firstWord) {
+  bool once = true;
   while (!lexer_.atEnd()) {
     if (!cycleParameter()) return false;
-    const std::uint32_t address = block_.words.back().address;
-    for (std::size_t i = firstWord; i + 1 < block_.words.size(); ++i) {
-      if (block_.words[i].address != address) continue;
-      return error(fmt::format("Q{} is given twice in this cycle", address), "remove one of the two");
-    }
+    const Word& added = block_.words.back();
+    const bool known =
+        std::any_of(block_.words.begin() + static_cast<std::ptrdiff_t>(firstWord), block_.words.end() - 1,
+                    [&](const Word& other) { return other.address == added.address; });
+    if (!known) continue;
+    once = errorAt(added, fmt::format("Q{} is given twice in this cycle", added.address), "remove one of the two");
   }
-  return true;
+  return once;
 }
 
 bool BlockParser::cycleParameter() {

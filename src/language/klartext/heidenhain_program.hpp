@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <string>
 #include <string_view>
 
 #include "language/program.hpp"
@@ -25,6 +27,12 @@ struct FrameWords {
   std::string_view label;  ///< "LBL "
 };
 
+/// What a block must not have because of the blocks before it.
+struct ModalMistake {
+  Word word;
+  std::string message, advice;
+};
+
 /// A program of a HEIDENHAIN control, in Klartext or DIN/ISO: what the host and the check have to know of it.
 class HeidenhainProgram : public Program {
 public:
@@ -35,6 +43,9 @@ public:
   /// A block of this program.
   virtual FramePart framePart(const Block& block) const = 0;
   virtual const FrameWords& frameWords() const = 0;
+  /// The mistake in a block under the modal functions of those before it, where these are known without a run: after a
+  /// label or a call they are not. To be asked for every block in the order of the program, from the first on.
+  virtual std::optional<ModalMistake> modalMistake(const Block&) { return std::nullopt; }
 };
 
 }  // namespace probewright::language::klartext

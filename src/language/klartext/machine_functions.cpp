@@ -1,5 +1,9 @@
 #include "language/klartext/parser.hpp"
 
+#include <fmt/format.h>
+
+#include <utility>
+
 /// M functions: alone or at the end of a block, with the words that some of them take.
 namespace probewright::language::klartext {
 
@@ -25,6 +29,12 @@ bool actsAtEnd(int number) {
   }
 }
 
+/// The way that an M function turns the spindle: 1 clockwise, -1 the other way, 0 if it is about something else.
+int turnOfSpindle(int number) {
+  if (number == 3 || number == 13) return 1;
+  return number == 4 || number == 14 ? -1 : 0;
+}
+
 bool takesAxes(int number) { return number == 94 || number == 116 || number == 118 || number == 138; }
 
 bool takesFeed(int number) { return number == 103 || number == 128 || number == 140; }
@@ -32,17 +42,21 @@ bool takesFeed(int number) { return number == 103 || number == 128 || number == 
 }  // namespace
 
 bool BlockParser::machineFunction(Move* move) {
+  const std::size_t start = lexer_.offset();
   lexer_.advance();
   const std::optional<double> written = lexer_.number();
   if (!written || *written > 9999) return error("a number from 0 to 9999 is expected after M");
   const int number = static_cast<int>(*written);
-  if (move != nullptr && number == 91) {
-    move->machineCoordinates = true;
-    return true;
+  if (move != nullptr && (number == 91 || number == 92)) {
+    (number == 91 ? move->machineCoordinates : move->machineReference2) = true;
+    if (!move->machineCoordinates || !move->machineReference2) return true;
+    return contradicts(start, 91, 92);
   }
-  if (move != nullptr && number == 92) {
-    move->machineReference2 = true;
-    return true;
+  for (std::size_t i = 0; i < pendingCount_; ++i) {
+    const int other = pending_[i].function.number;
+    const bool turnsBack = turnOfSpindle(other) * turnOfSpindle(number) < 0;
+    const bool otherFeed = (other == 109 && number == 110) || (other == 110 && number == 109);
+    if (turnsBack || otherFeed) return contradicts(start, other, number);
   }
   if (pendingCount_ == pending_.size()) return error("there are too many M functions in this block");
   MachineFunction function;
@@ -84,6 +98,13 @@ bool BlockParser::machineFunction(Move* move) {
   return true;
 }
 
+/// Two M functions that act at the same time and exclude each other; the second one stands at `start`.
+bool BlockParser::contradicts(std::size_t start, int first, int second) {
+  lexer_.seek(start);
+  return error(fmt::format("M{} and M{} exclude each other in one block", first, second),
+               "remove one of the two, or write it in a block of its own");
+}
+
 bool BlockParser::machineFunctionBlock() {
   Move feedOnly;
   bool hasFeed = false;
@@ -91,13 +112,10 @@ bool BlockParser::machineFunctionBlock() {
     if (lexer_.peek() == 'M') {
       if (!machineFunction(nullptr)) return false;
     } else if (lexer_.peek() == 'F') {
-      hasFeed = true;
+      if (std::exchange(hasFeed, true)) return error("the feed is given twice in this block", "remove one of the two");
       const std::size_t before = block_.words.size();
       if (!feedWord(feedOnly.feed, &feedOnly.rapid, &feedOnly.autoFeed)) return false;
-      if (block_.words.size() > before) {  // FU, FZ
-        if (feedOnly.words.count > 0) return error("the feed appears twice in this block");
-        feedOnly.words = wordsSince(before);
-      }
+      if (block_.words.size() > before) feedOnly.words = wordsSince(before);  // FU, FZ
     } else {
       return expectEnd();
     }

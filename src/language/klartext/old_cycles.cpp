@@ -66,10 +66,11 @@ bool BlockParser::nextPart(std::string_view first, std::string_view second, Part
 }
 
 bool BlockParser::axisList(Axes axes) {
+  const std::size_t first = block_.words.size();
   while (!lexer_.atEnd()) {
     if (!listedAxis(axes)) return false;
   }
-  return true;
+  return eachOnce(first, "block");
 }
 
 bool BlockParser::listedAxis(Axes axes) {
@@ -308,7 +309,8 @@ bool BlockParser::oldCyclePart(Part part) {
       return behindWords("SCL", "the scaling factor SCL") && expectEnd();
     case 13:
       return behindWords("ANG", "the spindle angle") && expectEnd();
-    case 19:
+    case 19: {
+      const std::size_t first = block_.words.size();
       while (!lexer_.atEnd()) {
         const char c = lexer_.peek();
         const bool incremental = c == 'I';
@@ -332,8 +334,10 @@ bool BlockParser::oldCyclePart(Part part) {
           return false;
         }
       }
-      return true;
-    case 26:
+      return eachOnce(first, "block");
+    }
+    case 26: {
+      const std::size_t first = block_.words.size();
       while (!lexer_.atEnd()) {
         const char axis = lexer_.peek();
         if (axis == 'C' && upper(lexer_.here(1)) == 'C') {
@@ -347,7 +351,8 @@ bool BlockParser::oldCyclePart(Part part) {
           return error("an axis or the centre CCX, CCY, CCZ is expected here");
         }
       }
-      return true;
+      return eachOnce(first, "block");
+    }
     case 32: {
       if (part.part == 1) return behindWords("T", "the tolerance T") && expectEnd();
       if (!behindWords("HSC", "the machining mode")) return false;

@@ -16,19 +16,44 @@ TextRef BlockParser::ref(std::string_view part) const {
 }
 
 bool BlockParser::error(std::string message, std::string advice) {
-  Diagnostic diagnostic;
-  diagnostic.place = {file_, block_.position.line + lexer_.line(), lexer_.column()};
-  diagnostic.message = std::move(message);
-  diagnostic.advice = std::move(advice);
   const std::string_view text = lexer_.text();
   const std::size_t at = std::min(lexer_.offset(), text.size());
   const std::size_t before = at == 0 ? std::string_view::npos : text.rfind('\n', at - 1);
-  const std::size_t start = before == std::string_view::npos ? 0 : before + 1;
-  std::string_view line = text.substr(start, std::min(text.find('\n', start), text.size()) - start);
-  line = trimmedAtEnd(line, blanksAndReturn);
-  diagnostic.excerpt = line;
-  diagnostics_.push_back(std::move(diagnostic));
+  report(lexer_.line(), lexer_.column(), text.substr(before == std::string_view::npos ? 0 : before + 1),
+         std::move(message), std::move(advice));
   return false;
+}
+
+bool BlockParser::errorAt(const Word& word, std::string message, std::string advice) {
+  std::string_view text = lexer_.text();
+  for (std::uint32_t line = word.line; line > 0 && text.find('\n') != std::string_view::npos; --line)
+    text.remove_prefix(text.find('\n') + 1);
+  report(word.line, word.column, text, std::move(message), std::move(advice));
+  return false;
+}
+
+/// `text` begins with the line of the mistake.
+void BlockParser::report(std::uint32_t line, std::uint32_t column, std::string_view text, std::string message,
+                         std::string advice) {
+  Diagnostic diagnostic;
+  diagnostic.place = {file_, block_.position.line + line, column};
+  diagnostic.message = std::move(message);
+  diagnostic.advice = std::move(advice);
+  diagnostic.excerpt = trimmedAtEnd(text.substr(0, text.find('\n')), blanksAndReturn);
+  diagnostics_.push_back(std::move(diagnostic));
+}
+
+/// Refuses a word that stands among those from `first` on twice.
+bool BlockParser::eachOnce(std::size_t first, std::string_view where) {
+  for (std::size_t i = first; i < block_.words.size(); ++i) {
+    const Word& word = block_.words[i];
+    for (std::size_t k = first; k < i; ++k) {
+      if (block_.words[k].address != word.address) continue;
+      return errorAt(word, fmt::format("{} is given twice in this {}", addressName(word.address), where),
+                     "remove one of the two");
+    }
+  }
+  return true;
 }
 
 bool BlockParser::expect(char wanted, std::string_view after) {
@@ -83,10 +108,13 @@ bool BlockParser::statement() {
       lexer_.advance();
       if (second == 'P' && !isLetter(lexer_.here(1))) {
         lexer_.advance();
-        return move(MoveKind::Linear, Coordinates::Polar);
+        return move(MoveKind::Linear, pathWords("LP"));
       }
-      if (second == 'N' && !isLetter(lexer_.here(1))) lexer_.advance();
-      return move(MoveKind::Linear);
+      if (second == 'N' && !isLetter(lexer_.here(1))) {
+        lexer_.advance();
+        return move(MoveKind::Linear, pathWords("LN"));
+      }
+      return move(MoveKind::Linear, pathWords("L"));
     case 'C':
       if (lexer_.acceptKeyword("CYCL")) {
         if (lexer_.acceptKeyword("DEF")) return cycleDefinition();
@@ -98,17 +126,17 @@ bool BlockParser::statement() {
         if (lexer_.acceptKeyword("PGM") || lexer_.acceptKeyword("SELECTED PGM")) return callProgram();
         return error("LBL or PGM is expected after CALL", meantWord(lexer_, {"LBL", "PGM"}));
       }
-      if (lexer_.acceptKeyword("CC")) return move(MoveKind::SetCentre);
+      if (lexer_.acceptKeyword("CC")) return move(MoveKind::SetCentre, pathWords("CC"));
       if (lexer_.acceptKeyword("CR")) return arcWithRadius();
-      if (lexer_.acceptKeyword("CTP")) return move(MoveKind::ArcTangential, Coordinates::Polar);
-      if (lexer_.acceptKeyword("CT")) return move(MoveKind::ArcTangential);
-      if (lexer_.acceptKeyword("CP")) return arc(Coordinates::Polar);
-      if (lexer_.acceptKeyword("CHF")) return move(MoveKind::Chamfer);
+      if (lexer_.acceptKeyword("CTP")) return move(MoveKind::ArcTangential, pathWords("CTP"));
+      if (lexer_.acceptKeyword("CT")) return move(MoveKind::ArcTangential, pathWords("CT"));
+      if (lexer_.acceptKeyword("CP")) return arc(pathWords("CP"));
+      if (lexer_.acceptKeyword("CHF")) return move(MoveKind::Chamfer, pathWords("CHF"));
       if (lexer_.acceptKeyword("CONTOUR")) return textCommand(CommandKind::Contour);
-      if (single && (second == '+' || second == '-' || isDigit(second))) return move(MoveKind::Linear);
+      if (single && (second == '+' || second == '-' || isDigit(second))) return move(MoveKind::Linear, pathWords("L"));
       if (single) {
         lexer_.advance();
-        return arc();
+        return arc(pathWords("C"));
       }
       break;
     case 'Q':
@@ -161,7 +189,7 @@ bool BlockParser::statement() {
       }
       break;
     case 'R':
-      if (lexer_.acceptPrefix("RND")) return move(MoveKind::Rounding);
+      if (lexer_.acceptPrefix("RND")) return move(MoveKind::Rounding, pathWords("RND"));
       break;
     case 'A':
       if (lexer_.acceptKeyword("APPR")) return approachOrDepart(MoveKind::Approach);
@@ -199,10 +227,10 @@ bool BlockParser::statement() {
       break;
   }
   if (std::string_view("XYZABUVWI").find(first) != std::string_view::npos && single) {
-    return move(MoveKind::Linear);
+    return move(MoveKind::Linear, pathWords("L"));
   }
   if (first == 'I' && std::string_view("XYZABCUVW").find(second) != std::string_view::npos) {
-    return move(MoveKind::Linear);
+    return move(MoveKind::Linear, pathWords("L"));
   }
   return error("this is not a block of the Klartext language", meantKeyword());
 }

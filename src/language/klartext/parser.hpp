@@ -9,6 +9,7 @@
 #include "language/block.hpp"
 #include "language/klartext/commands.hpp"
 #include "language/klartext/lexer.hpp"
+#include "language/klartext/path_words.hpp"
 
 namespace probewright::language::klartext {
 
@@ -37,6 +38,9 @@ protected:
   bool numbersFit();
   bool formulasFit();
   bool error(std::string message, std::string advice = {});
+  bool errorAt(const Word& word, std::string message, std::string advice = {});
+  void report(std::uint32_t line, std::uint32_t column, std::string_view text, std::string message, std::string advice);
+  bool eachOnce(std::size_t first, std::string_view where);
   TextRef ref(std::string_view part) const;
   TextRef constant(std::string_view text) { return block_.add(text); }
   template <class T>
@@ -73,13 +77,13 @@ protected:
   std::optional<Operand> stringFunction(std::string_view name);
 
   // moves.cpp
-  enum class Coordinates { Cartesian, Polar };
-  bool move(MoveKind kind, Coordinates coordinates = Coordinates::Cartesian);
-  bool arc(Coordinates coordinates = Coordinates::Cartesian);
+  bool move(MoveKind kind, const PathWords& function);
+  bool arc(const PathWords& function);
   bool arcWithRadius();
   bool approachOrDepart(MoveKind kind);
-  bool moveWords(Move& move);
-  bool eachOnce(WordRange range);
+  bool moveWords(Move& move, const PathWords& function);
+  bool pathWord(Move& move);
+  bool belongs(const PathWords& function, std::size_t first, std::size_t from);
   bool leftOpen(char following);
   bool axisWord(WordMode mode);
   bool radiusWord(Move& move);
@@ -87,6 +91,7 @@ protected:
 
   // machine_functions.cpp
   bool machineFunction(Move* move);
+  bool contradicts(std::size_t start, int first, int second);
   bool machineFunctionBlock();
   void emitWithMachineFunctions(const Instruction* instruction);
 
@@ -150,6 +155,8 @@ protected:
   // plane.cpp
   bool plane();
   bool planeOption();
+  bool planeComplete(std::string_view name, std::size_t first);
+  bool emitPlane(std::string_view name, std::size_t first);
   bool transformation();
   bool functionKeyword();
   bool presetKeyword();

@@ -1,6 +1,10 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "language/klartext/meant_word.hpp"
 #include "language/klartext/parser.hpp"
@@ -15,20 +19,37 @@ namespace probewright::language::klartext {
 
 namespace {
 
+/// A form of PLANE: the words that define the plane. All of them are needed unless `how` says otherwise.
+enum class Needed : std::uint8_t { All, One, AtLeastOne };
 struct Variant {
   std::string_view keyword;
   std::string_view name;
+  std::string_view words;  ///< separated by blanks; EULPR is called EULP in a block, and so on
+  std::string_view example;
+  Needed how = Needed::All;
 };
 
-constexpr std::array<Variant, 9> variants = {{{"SPATIAL", "PLANE SPATIAL"},
-                                              {"PROJECTED", "PLANE PROJECTED"},
-                                              {"EULER", "PLANE EULER"},
-                                              {"VECTOR", "PLANE VECTOR"},
-                                              {"POINTS", "PLANE POINTS"},
-                                              {"RELATIVE", "PLANE RELATIVE"},
-                                              {"RELATIV", "PLANE RELATIVE"},
-                                              {"AXIAL", "PLANE AXIAL"},
-                                              {"RESET", "PLANE RESET"}}};
+constexpr std::array<Variant, 9> variants = {
+    {{"SPATIAL", "PLANE SPATIAL", "SPA SPB SPC", "PLANE SPATIAL SPA+0 SPB+45 SPC+0 TURN FMAX"},
+     {"PROJECTED", "PLANE PROJECTED", "PROPR PROMIN ROT", "PLANE PROJECTED PROPR+24 PROMIN+24 ROT+0 TURN FMAX"},
+     {"EULER", "PLANE EULER", "EULPR EULNU EULROT", "PLANE EULER EULPR+45 EULNU+20 EULROT+22 TURN FMAX"},
+     {"VECTOR", "PLANE VECTOR", "BX BY BZ NX NY NZ", "PLANE VECTOR BX+1 BY+0 BZ+0 NX+0 NY-0.5 NZ+0.8 TURN FMAX"},
+     {"POINTS", "PLANE POINTS", "P1X P1Y P1Z P2X P2Y P2Z P3X P3Y P3Z",
+      "PLANE POINTS P1X+0 P1Y+0 P1Z+0 P2X+9 P2Y+0 P2Z+0 P3X+0 P3Y+9 P3Z+4 TURN FMAX"},
+     {"RELATIVE", "PLANE RELATIVE", "SPA SPB SPC", "PLANE RELATIV SPB-45 TURN FMAX", Needed::One},
+     {"RELATIV", "PLANE RELATIVE", "SPA SPB SPC", "PLANE RELATIV SPB-45 TURN FMAX", Needed::One},
+     {"AXIAL", "PLANE AXIAL", "A B C", "PLANE AXIAL B-45 TURN FMAX", Needed::AtLeastOne},
+     {"RESET", "PLANE RESET", "", "PLANE RESET TURN FMAX"}}};
+
+std::vector<std::string_view> listed(std::string_view words) {
+  std::vector<std::string_view> all;
+  while (!words.empty()) {
+    const std::size_t end = std::min(words.find(' '), words.size());
+    all.push_back(words.substr(0, end));
+    words.remove_prefix(std::min(end + 1, words.size()));
+  }
+  return all;
+}
 
 // Longer words before those they begin with.
 constexpr std::array<std::string_view, 24> definitionWords = {
@@ -37,19 +58,17 @@ constexpr std::array<std::string_view, 24> definitionWords = {
 
 constexpr std::array<std::string_view, 3> spaceAngleWords = {"SPA", "SPB", "SPC"};
 
-bool definesPlane(std::uint32_t address) {
-  return (address >= 'A' && address <= 'C') ||
-         std::ranges::any_of(definitionWords, [address](std::string_view name) { return addressOf(name) == address; });
-}
+/// Ways to the plane that exclude each other.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 5> exclusive = {
+    {{"MOVE", "TURN"}, {"MOVE", "STAY"}, {"TURN", "STAY"}, {"SEQ", "SYM"}, {"TABL", "COOR"}}};
 
-std::string_view exampleOf(std::string_view name) {
-  if (name == "PLANE SPATIAL") return "PLANE SPATIAL SPA+0 SPB+45 SPC+0 TURN FMAX";
-  if (name == "PLANE PROJECTED") return "PLANE PROJECTED PROPR+24 PROMIN+24 ROT+0 TURN FMAX";
-  if (name == "PLANE EULER") return "PLANE EULER EULPR+45 EULNU+20 EULROT+22 TURN FMAX";
-  if (name == "PLANE VECTOR") return "PLANE VECTOR BX+1 BY+0 BZ+0 NX+0 NY-0.5 NZ+0.8 TURN FMAX";
-  if (name == "PLANE POINTS") return "PLANE POINTS P1X+0 P1Y+0 P1Z+0 P2X+9 P2Y+0 P2Z+0 P3X+0 P3Y+9 P3Z+4 TURN FMAX";
-  if (name == "PLANE RELATIVE") return "PLANE RELATIV SPB-45 TURN FMAX";
-  return "PLANE AXIAL B-45 TURN FMAX";
+/// The word of an option as programs write it.
+std::string_view optionName(std::uint32_t address) {
+  if (address == addressOf("TABL")) return "TABLE ROT";
+  if (address == addressOf("COOR")) return "COORD ROT";
+  static constexpr std::array<std::string_view, 8> options = {"MOVE", "TURN", "STAY", "DIST", "MB", "SEQ", "SYM", "F"};
+  const auto found = std::ranges::find_if(options, [&](std::string_view name) { return addressOf(name) == address; });
+  return found == options.end() ? "FMAX" : *found;
 }
 
 }  // namespace
@@ -65,37 +84,94 @@ bool BlockParser::plane() {
         meantWord(lexer_, {"SPATIAL", "PROJECTED", "EULER", "VECTOR", "POINTS", "RELATIVE", "AXIAL", "RESET"}));
   }
   const std::size_t first = block_.words.size();
+  const std::vector<std::string_view> own = listed(variant->words);
   while (!lexer_.atEnd()) {
     const char c = lexer_.peek();
     if (c == 'M' && isDigit(lexer_.here(1))) {
       if (!machineFunction(nullptr)) return false;
       continue;
     }
-    bool taken = false;
-    for (const std::string_view name : definitionWords) {
-      if (!lexer_.acceptPrefix(name)) continue;
-      if (!word(addressOf(name), name)) return false;
-      taken = true;
-      break;
-    }
-    if (taken) continue;
-    if (variant->keyword == "AXIAL" && ((c >= 'A' && c <= 'C') || c == 'I') && upper(lexer_.here(1)) != 'O') {
+    const std::size_t start = lexer_.offset();
+    const std::uint32_t column = lexer_.column();
+    const std::uint32_t line = lexer_.line();
+    const std::size_t before = block_.words.size();
+    const auto refuse = [&](std::string message, std::string advice) {
+      lexer_.seek(start);
+      return error(std::move(message), std::move(advice));
+    };
+    const auto name = std::ranges::find_if(definitionWords, [&](auto word) { return lexer_.acceptPrefix(word); });
+    std::string written;
+    if (name != definitionWords.end()) {
+      written = *name;
+      if (std::ranges::find(own, *name) == own.end())
+        return refuse(fmt::format("{} takes no {}", variant->name, *name), fmt::format("write {}", variant->example));
+      if (!word(addressOf(*name), *name)) return false;
+    } else if (variant->keyword == "AXIAL" && ((c >= 'A' && c <= 'C') || c == 'I') && upper(lexer_.here(1)) != 'O') {
       const bool incremental = c == 'I';
       if (incremental) lexer_.advance();
       const char axis = lexer_.peek();
       lexer_.advance();
+      written = axis;
       if (!word(addressOf({&axis, 1}), {&axis, 1}, incremental ? WordMode::Incremental : WordMode::Plain)) return false;
-    } else if (!planeOption()) {
-      return false;
+    } else {
+      if (!planeOption()) return false;
+      if (block_.words.size() > before) written = optionName(block_.words[before].address);
+    }
+    if (block_.words.size() == before) continue;
+    Word& added = block_.words[before];
+    added.column = column;
+    added.line = line;
+    const auto has = [&](std::string_view address) {
+      return std::ranges::any_of(std::span(block_.words).subspan(first, before - first),
+                                 [&](const Word& other) { return other.address == addressOf(address); });
+    };
+    const bool feed = written == "F" || written == "FMAX";
+    if (feed ? has("F") || has("FMAX") : has(addressName(added.address))) {
+      return refuse(fmt::format("{} is given twice in this block", feed ? "the feed" : written),
+                    "remove one of the two");
+    }
+    for (const auto& [one, other] : exclusive) {
+      const bool isOne = added.address == addressOf(one);
+      if ((!isOne && added.address != addressOf(other)) || !has(isOne ? other : one)) continue;
+      return refuse(fmt::format("{} and {} exclude each other", optionName(addressOf(isOne ? other : one)), written),
+                    "remove one of the two");
     }
   }
-  const bool defined = std::any_of(block_.words.begin() + static_cast<std::ptrdiff_t>(first), block_.words.end(),
-                                   [](const Word& word) { return definesPlane(word.address); });
-  if (!defined && variant->keyword != "RESET") {
-    return error("the values that define the plane are missing", fmt::format("write {}", exampleOf(variant->name)));
-  }
-  const Instruction instruction = Transform{constant(variant->name), wordsSince(first), {}};
+  return planeComplete(variant->name, first) && emitPlane(variant->name, first);
+}
+
+bool BlockParser::emitPlane(std::string_view name, std::size_t first) {
+  const Instruction instruction = Transform{constant(name), wordsSince(first), {}};
   emitWithMachineFunctions(&instruction);
+  return true;
+}
+
+/// What a PLANE block lacks, or has too much of as a whole. A control takes none without MOVE, TURN or STAY, but
+/// PLANE RESET, which moves nothing then.
+bool BlockParser::planeComplete(std::string_view name, std::size_t first) {
+  const Variant& variant = *std::ranges::find(variants, name, &Variant::name);
+  const auto has = [&](std::string_view address) {
+    return std::ranges::any_of(std::span(block_.words).subspan(first),
+                               [&](const Word& word) { return word.address == addressOf(address); });
+  };
+  const std::string example = fmt::format("write {}", variant.example);
+  std::vector<std::string_view> given, missing;
+  for (const std::string_view word : listed(variant.words))
+    (has(word) ? given : missing).push_back(word);
+  if (given.empty() && !missing.empty()) return error("the values that define the plane are missing", example);
+  if (variant.how == Needed::All && !missing.empty())
+    return error(fmt::format("{} lacks {}", name, fmt::join(missing, ", ")), example);
+  if (variant.how == Needed::One && given.size() > 1)
+    return error(fmt::format("{} turns about one axis, and this block has {}", name, fmt::join(given, ", ")), example);
+  if (!has("MOVE") && !has("TURN") && !has("STAY") && variant.keyword != "RESET") {
+    return error("this block does not say how the rotary axes get to the plane",
+                 "add TURN FMAX, MOVE DIST50 FMAX or STAY, which leaves them where they are");
+  }
+  for (const std::string_view word : {"DIST", "MB"}) {
+    if (!has(word) || has("MOVE") || (word == "MB" && has("TURN"))) continue;
+    return error(fmt::format("{} belongs to {}", word, word == "DIST" ? "MOVE" : "MOVE and TURN"),
+                 fmt::format("take it away, or write MOVE {}50", word));
+  }
   return true;
 }
 
@@ -285,6 +361,7 @@ bool BlockParser::functionKeyword() {
       return error("F TCP, F CONT, AXIS POS, AXIS SPAT, PATHCTRL or REFPNT is expected here");
     }
   }
+  if (!eachOnce(first, "block")) return false;
   const WordRange words = wordsSince(first);
   emit(Modal{constant("FUNCTION TCPM"), words});
   return true;
@@ -338,6 +415,7 @@ bool BlockParser::presetKeyword() {
   } else {
     return error("SELECT, COPY or CORR is expected after PRESET", meantWord(lexer_, {"SELECT", "COPY", "CORR"}));
   }
+  if (!eachOnce(first, "block")) return false;
   const WordRange words = wordsSince(first);
   emit(Command{constant(nameOf(kind)), {}, -1, words});
   return expectEnd();

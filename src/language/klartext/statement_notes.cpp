@@ -51,11 +51,44 @@ void StatementNotes::label(const Block& block, TextRef label) {
        "write it the same way everywhere, or give it a name with a letter");
 }
 
-void StatementNotes::look(const Block& block, const CallLabel& call) { label(block, call.label); }
+void StatementNotes::look(const Block& block, const CallLabel& call) {
+  label(block, call.label);
+  toolAxis_ = poleAxis_ = 0;
+}
+
+void StatementNotes::look(const Block&, const CallProgram&) { toolAxis_ = poleAxis_ = 0; }
+
+void StatementNotes::look(const Block&, const ToolCall& call) {
+  if (call.axis == 0 || call.axis == toolAxis_) return;
+  toolAxis_ = call.axis;
+  poleAxis_ = 0;
+}
+
+/// CC with two axes has their plane, CC without any the one of the tool axis.
+void StatementNotes::followPole(const Block& block, const Move& move) {
+  std::string missing = "XYZ";
+  for (const Word& word : wordsOf(block, move.words))
+    std::erase(missing, static_cast<char>(word.address));
+  if (missing.size() == 3) poleAxis_ = toolAxis_;
+  if (missing.size() == 2) poleAxis_ = 0;
+  if (missing.size() == 1) poleAxis_ = missing.front();
+}
+
+/// An axis of the pole's plane beside PR and PA.
+void StatementNotes::mixture(const Block& block, const Move& move) {
+  for (const Word& word : wordsOf(block, move.words)) {
+    if (word.address < 'X' || word.address > 'Z' || static_cast<char>(word.address) == poleAxis_) continue;
+    note(Severity::Error,
+         fmt::format("beside polar coordinates only {} may stand, not {}, which lies in their plane", poleAxis_,
+                     addressName(word.address)),
+         fmt::format("take {} away, or write the end point in X, Y, Z", addressName(word.address)));
+  }
+}
 
 void StatementNotes::look(const Block& block, const Jump& jump) { label(block, jump.label); }
 
 void StatementNotes::look(const Block& block, const LabelMark& mark) {
+  toolAxis_ = poleAxis_ = 0;
   label(block, mark.label);
   const std::string_view label = block.at(mark.label);
   if (!std::ranges::all_of(label, isDigit) || isQuoted(block, mark.label)) return;
@@ -114,6 +147,7 @@ void StatementNotes::look(const Block& block, const Command& command) {
   if (kind == CommandKind::Fn21 || kind == CommandKind::Fn22) {
     note(Severity::Warning, fmt::format("the control has no FN {}", nameOf(kind).substr(2)), "take the block out");
   }
+  if (kind == CommandKind::CycleCall) toolAxis_ = poleAxis_ = 0;  // it may call a program
   if (kind == CommandKind::CycleCall || kind == CommandKind::PatternDefinition || kind == CommandKind::DwellTime ||
       kind == CommandKind::ProgramCall || kind == CommandKind::SpindleOrientation || kind == CommandKind::Tolerance)
     endContour();
@@ -155,6 +189,8 @@ void StatementNotes::look(const Block& block, const Assign& assign) {
 }
 
 void StatementNotes::look(const Block& block, const Move& move) {
+  if (move.kind == MoveKind::SetCentre) followPole(block, move);
+  if (move.polar && poleAxis_ != 0 && block.at(move.variant) != "G") mixture(block, move);
   if (move.kind == MoveKind::Rounding || move.kind == MoveKind::Chamfer) {
     corner_ = move.kind == MoveKind::Rounding ? "RND" : "CHF";
     return;

@@ -31,6 +31,10 @@ private:
   void look(const Block& block, const Transform& transform);
   void look(const Block& block, const Assign& assign);
   void look(const Block& block, const Move& move);
+  void look(const Block& block, const ToolCall& call);
+  void look(const Block& block, const CallProgram& call);
+  void followPole(const Block& block, const Move& move);
+  void mixture(const Block& block, const Move& move);
   template <class Other>
   void look(const Block&, const Other&) {}
   void label(const Block& block, TextRef label);
@@ -44,7 +48,9 @@ private:
 
   control::ControlKind kind_;
   std::map<std::string, bool, std::less<>> quoted_;  ///< labels of digits only, and how they stood first
-  std::string corner_;                               ///< RND or CHF that waits for the element after it
+  /// The axis along the tool, and the one square to the plane of the last CC; 0: not known without a run.
+  char toolAxis_ = 0, poleAxis_ = 0;
+  std::string corner_;  ///< RND or CHF that waits for the element after it
   std::vector<Note> notes_;
 };
 

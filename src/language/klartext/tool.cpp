@@ -46,7 +46,13 @@ bool BlockParser::toolWord(ToolCall& call) {
     return error("the tool axis, S, F, DL, DR, DR2 or M is expected here",
                  "oversizes of a tool are written DL+0.1, DR-0.05 and DR2+0.1");
   }
+  const std::size_t start = lexer_.offset();
+  const auto twice = [&](std::string_view word) {
+    lexer_.seek(start);
+    return error(std::string(word).append(" is given twice in this block"), "remove one of the two");
+  };
   if (c == 'S') {
+    if (call.spindleSpeed.present()) return twice("the spindle speed");
     lexer_.advance();
     if (lexer_.accept('(')) {  // S(VC = 120): a cutting speed
       if (!lexer_.acceptPrefix("VC") || !expect('=', "VC") || !value("VC") || !expect(')', "the cutting speed")) {
@@ -58,6 +64,7 @@ bool BlockParser::toolWord(ToolCall& call) {
       call.spindleSpeed = *speed;
     }
   } else if (c == 'F') {
+    if (call.feed.present()) return twice("the feed");
     bool rapid = false;
     bool automatic = false;
     if (!feedWord(call.feed, &rapid, &automatic)) return false;
@@ -73,6 +80,7 @@ bool BlockParser::toolWord(ToolCall& call) {
     if (lexer_.here() == ':') lexer_.advance();
     const std::optional<Operand> amount = value("the tool oversize");
     if (!amount) return false;
+    if (delta->present()) return twice("the oversize");
     *delta = *amount;
   }
   return true;

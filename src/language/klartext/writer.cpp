@@ -10,6 +10,7 @@
 #include "language/klartext/cycle_writer.hpp"
 #include "language/klartext/formula_writer.hpp"
 #include "language/klartext/lexer.hpp"
+#include "language/klartext/path_words.hpp"
 
 namespace probewright::language::klartext {
 
@@ -91,6 +92,8 @@ private:
     // R+ and R- are radius compensations.
     const bool hasRadius = std::ranges::any_of(
         wordsOf(move.words), [](const Word& w) { return w.address == 'R' && w.mode != WordMode::DirectShortest; });
+    const bool directed = std::ranges::any_of(
+        wordsOf(move.words), [](const Word& w) { return takes(pathWords("LN"), w) && !takes(pathWords("L"), w); });
     switch (move.kind) {
       case MoveKind::SetCentre:
         word("CC");
@@ -111,7 +114,7 @@ private:
         word(fmt::format("DEP {}{}", move.polar ? "P" : "", at(move.variant)));
         break;
       default:
-        word(isArc ? (move.polar ? "CP" : hasRadius ? "CR" : "C") : move.polar ? "LP" : "L");
+        word(isArc ? (move.polar ? "CP" : hasRadius ? "CR" : "C") : move.polar ? "LP" : directed ? "LN" : "L");
         break;
     }
     for (const Word& w : wordsOf(move.words)) {

@@ -1,7 +1,13 @@
 #include "language/sinumerik/block_parser.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstring>
+#include <optional>
+#include <utility>
+
+#include "language/sinumerik/block_words.hpp"
 
 namespace probewright::language::sinumerik {
 
@@ -125,6 +131,8 @@ void BlockParser::parse(std::string_view line, const SourcePlace& place, Block& 
   motionName_ = compensationName_ = suppression_ = ownerName_ = {};
   compensation_ = RadiusCompensation::Unchanged;
   feed_ = {};
+  groups_ = 0;
+  taken_.clear();
   takeLine(line);
 
   cursor_.skipBlanks();
@@ -193,19 +201,87 @@ void BlockParser::emitMove() {
   block.instructions.emplace_back(move);
 }
 
+/// False with a complaint if the block has had `what` already: an address, an axis, the turning of a spindle.
+bool BlockParser::takeOnce(std::string what, std::size_t start, std::string_view alarm) {
+  if (std::ranges::find(taken_, what) != taken_.end()) {
+    fail(start, what + " appears twice in this block",
+         fmt::format("Keep one of the two: the control refuses the block with alarm {}.", alarm));
+    return false;
+  }
+  taken_.push_back(std::move(what));
+  return true;
+}
+
+/// False with a complaint if the block has an address twice.
+bool BlockParser::addressesOnce() {
+  for (std::size_t i = 0; i < axisWords_.size(); ++i) {
+    const std::uint32_t address = axisWords_[i].address;
+    if (isComputedAxis(address)) continue;
+    const bool moved = !taken_.empty() && std::ranges::find(taken_, "the axis " + addressName(address)) != taken_.end();
+    for (std::size_t j = 0; j < i || moved; ++j) {
+      if (!moved && address != axisWords_[j].address) continue;
+      fail(axisWords_[i].column - 1, "the address " + addressName(address) + " appears twice in this block",
+           "Write each address once in a block.");
+      return false;
+    }
+  }
+  return true;
+}
+
+/// False with a complaint if the words of the block do not belong to what they stand with, as far as the block itself
+/// says what that is.
+bool BlockParser::wordsFit() {
+  const Block& block = *block_;
+  if (axisWords_.empty()) return true;
+  std::optional<Takes> takes;
+  TextRef name = motionName_;
+  WordRange words;
+  if (owner_ == Owner::Move) {
+    const auto* move = std::get_if<Move>(&block.instructions.back());
+    if (!motionGiven_ || move == nullptr) return true;
+    words = move->words;
+    switch (motion_) {
+      case MoveKind::Rapid:
+      case MoveKind::Linear:
+        takes = Takes::Line;
+        break;
+      case MoveKind::ArcClockwise:
+      case MoveKind::ArcCounterclockwise:
+        takes = Takes::Arc;
+        break;
+      case MoveKind::ArcThroughPoint:
+        takes = Takes::Points;
+        break;
+      case MoveKind::ArcTangential:
+        takes = Takes::Tangent;
+        break;
+      default:
+        takes = block.at(name).starts_with('G') ? Takes::Thread : Takes::Spline;
+    }
+  } else {
+    name = ownerName_;
+    words = {static_cast<std::uint32_t>(block.words.size() - axisWords_.size()),
+             static_cast<std::uint32_t>(axisWords_.size())};
+    const std::string_view owner = block.at(name);
+    takes = owner_ == Owner::Modal                                  ? Takes::Limit
+            : owner == "G4"                                         ? Takes::Dwell
+            : owner == "G74" || owner == "G75"                      ? Takes::Fixed
+            : owner_ == Owner::Command                              ? Takes::Measure
+            : owner == "G110" || owner == "G111" || owner == "G112" ? Takes::Pole
+            : owner.find("ROT") != std::string_view::npos           ? Takes::Turn
+                                                                    : Takes::Frame;
+  }
+  const std::optional<WordMistake> mistake = wordMistake(*takes, block.at(name), block, words, std::nullopt);
+  if (!mistake) return true;
+  fail(mistake->column > 0 ? mistake->column - 1 : 0, mistake->message,
+       fmt::format("{} The control refuses the block with alarm {}.", mistake->advice, mistake->alarm));
+  return false;
+}
+
 void BlockParser::finish() {
   if (failed_) return;
   Block& block = *block_;
-  for (std::size_t i = 1; i < axisWords_.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const std::uint32_t address = axisWords_[i].address;
-      if (address == axisWords_[j].address && !isComputedAxis(address)) {
-        fail(axisWords_[i].column - 1, "the address " + addressName(address) + " appears twice in this block",
-             "Write each address once in a block.");
-        return;
-      }
-    }
-  }
+  if (!addressesOnce()) return;
   if (owner_ == Owner::Move && !axisWords_.empty()) {
     emitMove();
   } else {
@@ -233,6 +309,7 @@ void BlockParser::finish() {
       block.instructions.emplace_back(Modal{suppression_, {}});
     }
   }
+  if (!wordsFit()) return;
   block.instructions.insert(block.instructions.end(), after_.begin(), after_.end());
 }
 

@@ -77,9 +77,13 @@ private:
   void expectEnd(const char* after);
   void finish();
   void emitMove();
+  bool wordsFit();
+  bool addressesOnce();
+  bool takeOnce(std::string what, std::size_t start, std::string_view alarm = "12010");
 
   // words.cpp
   void parseAddress();
+  bool takeGroup(language::TextRef name, std::size_t start);
   void parseG(std::size_t start);
   void parseM(std::size_t start);
   void parseT(std::size_t start);
@@ -174,6 +178,8 @@ private:
   language::TextRef suppression_;
   language::Operand feed_;
   std::uint32_t feedColumn_ = 0;
+  std::vector<std::string> taken_;  ///< what a block has once, and this one has
+  std::uint64_t groups_ = 0;        ///< of G functions, a bit each: those that the block has a function of
 };
 
 }  // namespace probewright::language::sinumerik

@@ -290,8 +290,10 @@ Diagnostics Checker::run() {
       report(1, "this divides by 0: the run stops at this block", "Correct the divisor.", Severity::Warning);
     }
     checkFunctions();
-    for (const Instruction& instruction : block_.instructions)
+    for (const Instruction& instruction : block_.instructions) {
       checkInstruction(instruction);
+      noteForModalWords(instruction);
+    }
   }
   if (constexpr const char* hook = "CUST_MEACYC";
       callsHook_ && options_.library != nullptr && options_.library->exists(hook, &program_)) {
@@ -313,6 +315,7 @@ Diagnostics Checker::run() {
   const Diagnostics& structure = program_.structure().mistakes();
   found_.insert(found_.end(), structure.begin(), structure.end());
   checkLabels();
+  checkModalWords();
   std::stable_sort(found_.begin(), found_.end(), [](const Diagnostic& a, const Diagnostic& b) {
     return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
   });

@@ -43,6 +43,8 @@ private:
   void checkArguments(const std::vector<ArgumentMistake>& mistakes);
   void checkParameters(const CallProgram& call, const BlockParser::Header& header);
   void checkLabels();
+  void noteForModalWords(const Instruction& instruction);
+  void checkModalWords();
   void checkType(const CallProgram& call, const BlockParser::Header& header, std::size_t place);
 
   SinumerikProgram& program_;
@@ -55,10 +57,13 @@ private:
   bool oldParameters_ = false;         ///< _MVAR was met: cycles may be called without arguments
   std::map<std::string, Type> types_;  ///< of those whose DEF or PROC line tells it
   std::set<std::string> macros_;
-  bool begun_ = false;                         ///< a block was met that is carried out
-  bool toldOrder_ = false;                     ///< of a DEF after it
-  std::set<std::string> told_;                 ///< system variables and words that were reported
-  std::map<std::string, Diagnostic> unknown_;  ///< first use of each name that no DEF came before
+  std::set<std::string, std::less<>> targets_;  ///< of jumps and repetitions
+  bool jumpsAnywhere_ = false;                  ///< to a label that only the run knows
+  bool modalWords_ = false;                     ///< a motion has other words than X, Y, Z
+  bool begun_ = false;                          ///< a block was met that is carried out
+  bool toldOrder_ = false;                      ///< of a DEF after it
+  std::set<std::string> told_;                  ///< system variables and words that were reported
+  std::map<std::string, Diagnostic> unknown_;   ///< first use of each name that no DEF came before
 };
 
 }  // namespace probewright::language::sinumerik

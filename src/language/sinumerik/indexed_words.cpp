@@ -123,6 +123,11 @@ void BlockParser::parseSetting(std::string_view name, std::size_t start) {
   }
   if (failed_) return;
   Block& block = *block_;
+  if (name.starts_with("POS") && index.value.node >= 0) {
+    const Node& axis = block.nodes[static_cast<std::size_t>(index.value.node)];
+    const bool named = axis.operation == Operation::AxisName;
+    if (named && !takeOnce("the axis " + std::string(block.at(axis.text)), start)) return;
+  }
   const auto first = static_cast<std::uint32_t>(block.words.size());
   block.words.push_back(value);
   if (index.value.present()) block.words.push_back(index);

@@ -140,6 +140,7 @@ void BlockParser::parseKeyword(Keyword keyword, std::string_view name, std::size
       return;
     case Keyword::Suppress:
       suppression_ = upper(name);
+      takeGroup(suppression_, start);
       return;
     case Keyword::MoveWord:
       return parseMoveWord(name, start);
@@ -398,6 +399,8 @@ void BlockParser::parseStatement(Keyword keyword, std::string_view name) {
   if (name.starts_with("DIA") && name.ends_with("A")) return parseAxialDiameter(name);
   Command command;
   command.name = upper(name);
+  if (keyword == Keyword::Modal && !takeGroup(command.name, static_cast<std::size_t>(name.data() - upper_.data())))
+    return;
   cursor_.skipBlanks();
   if (cursor_.peek() == '(') {
     command.words = parseArguments();

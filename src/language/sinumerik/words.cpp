@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "language/sinumerik/block_parser.hpp"
+#include "language/sinumerik/block_words.hpp"
 
 namespace probewright::language::sinumerik {
 
@@ -277,6 +278,7 @@ void BlockParser::parseModalAddress(char letter, std::size_t start) {
   std::uint32_t address = static_cast<unsigned char>(letter);
   Word word, extension;
   if (!parseExtension(address, extension.value)) return;
+  if (letter != 'H' && !extension.value.present() && !takeOnce("the address " + addressName(address), start)) return;
   word.address = address;
   word.column = static_cast<std::uint32_t>(start) + 1;
   word.value = parseValue(nullptr);
@@ -309,6 +311,20 @@ void BlockParser::setOwner(Owner owner, TextRef name, std::size_t start) {
   ownerName_ = name;
 }
 
+/// False with a complaint if the block has a function of the same group already.
+bool BlockParser::takeGroup(TextRef name, std::size_t start) {
+  const std::optional<int> group = groupOf(block_->at(name));
+  if (!group) return true;
+  const std::uint64_t bit = std::uint64_t{1} << *group;
+  if ((groups_ & bit) == 0) {
+    groups_ |= bit;
+    return true;
+  }
+  fail(start, fmt::format("{} is the second G function of group {} in this block", block_->at(name), *group),
+       "Keep one of the two: the control refuses the block with alarm 12060.");
+  return false;
+}
+
 void BlockParser::parseG(std::size_t start) {
   cursor_.skipBlanks();
   if (cursor_.peek() == '[') return parseSetting(cursor_.since(start).substr(0, 1), start);
@@ -326,6 +342,7 @@ void BlockParser::parseG(std::size_t start) {
                     : "");
   const bool plain = numberStart == start + 1 && (digits.size() == 1 || digits[0] != '0');
   const TextRef name = plain ? upper(start, digits.size() + 1) : block_->add(fmt::format("G{}", number));
+  if (!takeGroup(name, start)) return;
   switch (number) {
     case 0:
       setMotion(MoveKind::Rapid, start);
@@ -416,6 +433,12 @@ void BlockParser::parseM(std::size_t start) {
       function.number = function.number * 10 + (c - '0');
   }
   const bool plain = !function.argument.present();
+  if (const int number = function.number; number == 3 || number == 4 || number == 5 || number == 19 || number == 70) {
+    const bool known = plain || function.argument.isLiteral();
+    std::string turns =
+        plain ? "an M function of the spindle" : fmt::format("an M function of spindle {}", function.argument.number);
+    if (known && !takeOnce(std::move(turns), start, "14760")) return;
+  }
   switch (plain ? function.number : -1) {
     case 0:
     case 1:
@@ -437,6 +460,7 @@ void BlockParser::parseT(std::size_t start) {
   std::uint32_t address = 'T';
   ToolCall call;
   if (!parseExtension(address, call.index)) return;
+  if (!call.index.present() && !takeOnce("the address " + addressName(address), start)) return;
   cursor_.skipBlanks();
   const bool assigned = cursor_.peek() == '=';
   Operand value = parseValue(nullptr);

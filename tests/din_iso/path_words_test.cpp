@@ -1,0 +1,104 @@
+#include "language/din_iso/path_words.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "language/din_iso/program.hpp"
+#include "language/klartext/check.hpp"
+#include "setup/simulated_run.hpp"
+#include "support/heidenhain_bench.hpp"
+
+/// Words that do not belong to the path function in force are refused, also where a block before theirs chose it.
+namespace probewright::language::din_iso::testing {
+namespace {
+
+using testing_support::Bench;
+
+constexpr const char* before = "%A G71 *\nN10 T1 G17 S100 *\nN20 G00 G40 G90 X+20 Y+0 Z-200 *\nN30 I+0 J+0 *\n";
+
+std::string programOf(const std::string& blocks) { return before + blocks + "\nN99999999 %A G71 *\n"; }
+
+/// "line:column: message; advice" of the check, or "nothing".
+std::string checked(const std::string& blocks) {
+  DinIsoProgram program("a.i", programOf(blocks));
+  const Diagnostics found = klartext::checkProgram(program, control::ControlKind::TNC640);
+  if (found.empty()) return "nothing";
+  const Diagnostic& first = found.front();
+  return std::to_string(first.place.line) + ":" + std::to_string(first.place.column) + ": " + first.message + "; " +
+         first.advice;
+}
+
+/// What the run reports first: its alarm, or the mistake in the text.
+std::string ran(const std::string& blocks) {
+  Bench bench;
+  session::RunOptions options;
+  options.control = bench.control;
+  const testing_support::Ran run{setup::runText("A.I", programOf(blocks), bench.setup, options)};
+  const session::RunOutcome& outcome = run.outcome;
+  const Diagnostics& said = outcome.diagnostics.empty() ? outcome.result.diagnostics : outcome.diagnostics;
+  if (said.empty()) return "nothing";
+  const Diagnostic& first = said.front();
+  return (first.code.empty() ? "" : first.code + ": ") + first.message;
+}
+
+TEST(DinIsoPathWords, OfTheBlocksOwnFunction) {
+  struct Case {
+    std::string block, said;
+  };
+  const std::vector<Case> cases = {
+      {"N40 G01 R+5 H+5 F500 *", "5:9: G01 takes no R; write G11 for polar coordinates"},
+      {"N40 G01 H+45 F500 *", "5:9: G01 takes no H; write G11 for polar coordinates"},
+      {"N40 G06 X+1 R+5 F500 *", "5:13: G06 takes no R; write G16 for polar coordinates"},
+      {"N40 G03 X+0 Y+20 H+90 F500 *", "5:18: G03 takes no H; write G13 for polar coordinates"},
+      {"N40 G11 X+5 Y+5 F500 *",
+       "5:13: G11 takes polar coordinates, and this block has X and Y; write G01 for axes "
+       "of the plane"},
+      {"N40 G12 X+0 Y+20 F500 *",
+       "5:13: G12 takes polar coordinates, and this block has X and Y; write G02 for axes "
+       "of the plane"},
+      {"N40 G13 R+20 H+90 F500 *",
+       "5:9: G13 takes no R; take it away: the radius is the distance of the starting point "
+       "from the pole"},
+      {"N40 G03 G43 X+0 Y+20 F500 *",
+       "5:9: G03 takes no G43; write the paraxial compensation in a block with G00 or G01"},
+      {"N40 G41 G42 X+5 *", "5:9: G41 and G42 are two radius compensations in one block; remove one of the two"},
+      {"N40 G17 G18 *", "5:9: G17 and G18 are two tool axes in one block; remove one of the two"},
+      {"N40 G01 X+5 F100 F200 *", "5:18: the feed is given twice in this block; remove one of the two"},
+      {"N40 I+0 I+5 *", "5:9: I is given twice in this block; remove one of the two"},
+      {"N40 G01 X+5 X+6 *", "5:13: X is given twice in this block; remove one of the two"},
+      {"N40 G01 X+5 M3 M4 *",
+       "5:16: M3 and M4 exclude each other in one block; remove one of the two, or write it in a block of its own"}};
+  for (const Case& each : cases)
+    EXPECT_EQ(checked(each.block), each.said) << each.block;
+}
+
+TEST(DinIsoPathWords, OfTheFunctionOfABlockBefore) {
+  const std::string mixture = "G11 takes polar coordinates, and this block has X and Y";
+  EXPECT_EQ(checked("N40 G11 R+20 H+0 F500 *\nN50 X+5 Y+5 *"), "6:9: " + mixture + "; write G01 for axes of the plane");
+  EXPECT_EQ(ran("N40 G11 R+20 H+0 F500 *\nN50 X+5 Y+5 *"), mixture);
+  EXPECT_EQ(checked("N40 G01 X+5 F500 *\nN50 R+5 *"), "6:5: G01 takes no R; write G11 for polar coordinates");
+  // Behind a label and a call only the run knows.
+  const std::string called =
+      "N40 G01 X+5 F500 *\nN45 L1,0 *\nN50 H+5 *\nN60 G00 Z-190 M2 *\nN70 G98 L1 *\nN80 G11 H+9 "
+      "*\nN90 G98 L0 *";
+  EXPECT_EQ(checked(called), "nothing");
+  EXPECT_EQ(ran(called), "nothing");
+  const std::string wrong =
+      "N40 G01 X+5 F500 *\nN45 L1,0 *\nN50 X+5 Y+2 *\nN60 G00 Z-190 M2 *\nN70 G98 L1 *\nN80 G11 "
+      "H+9 *\nN90 G98 L0 *";
+  EXPECT_EQ(checked(wrong), "nothing");
+  EXPECT_EQ(ran(wrong), "Block format incorrect: " + mixture);
+}
+
+TEST(DinIsoPathWords, ThatBelongTogether) {
+  for (const char* blocks :
+       {"N40 G11 G90 R+20 H+30 Z+5 F500 M3 *\nN50 G91 H+30 *", "N40 G02 X+0 Y+20 R+20 F500 *",
+        "N40 G03 I+0 J+0 X+0 Y+20 F500 *", "N40 G13 G91 H+360 Z-5 F500 *", "N40 G00 G40 G90 X+5 G91 Y+5 M8 *",
+        "N40 G01 G43 X+5 F500 *", "N40 G10 I+0 J+0 R+20 H+30 *"})
+    EXPECT_EQ(checked(blocks), "nothing") << blocks;
+}
+
+}  // namespace
+}  // namespace probewright::language::din_iso::testing

@@ -1,0 +1,125 @@
+#include "language/sinumerik/block_words.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "sinumerik/told.hpp"
+
+/// Words and G functions that cannot stand together are refused, by the check and by the run, and never left out.
+namespace probewright::language::sinumerik {
+namespace {
+
+constexpr const char* before = "G17 G90 G0 X20 Y0 Z50\nG111 X0 Y0\nF1000\n";
+
+std::string adviceOf(const std::string& text) {
+  const auto program = SinumerikProgram::fromText("test.mpf", text);
+  const Diagnostics found = check(*program);
+  return found.empty() ? "" : found.front().advice;
+}
+
+struct Case {
+  std::string block, said, alarm;
+};
+
+TEST(SinumerikBlockWords, ThatTheBlockItselfTells) {
+  const std::vector<Case> cases = {
+      {"G4 F1 X9", "G4 takes no X", "12120"},
+      {"G0 X5 Y3 RP=3", "X stands beside RP: the end point is polar or Cartesian, not both", "14280"},
+      {"G3 X0 Y20 I-20 J0 AR=45", "X and AR determine the arc twice", "12110"},
+      {"G3 X0 Y20 I-20 J0 CR=20", "I and CR determine the arc twice", "12110"},
+      {"G3 X0 Y20 CR=20 AR=90", "CR and AR determine the arc twice", "12110"},
+      {"G1 X5 I10", "G1 takes no I", "12110"},
+      {"G0 X5 CR=10", "G0 takes no CR", "12110"},
+      {"G2 X0 Y20 CR=20 ANG=30", "G2 takes no ANG", "12110"},
+      {"CT X0 Y20 CR=20", "CT takes no CR", "12110"},
+      {"CIP X0 Y20 I5 J5", "CIP takes no I", "12110"},
+      {"TRANS I5", "TRANS takes no I", "12110"},
+      {"TRANS CR=5", "TRANS takes no CR", "12110"},
+      {"ROT X5 AP=3", "ROT takes no AP", "12110"},
+      {"G111 X5 CR=5", "G111 takes no CR", "12110"},
+      {"MEAS=1 G1 X5 CR=10", "MEAS takes no CR", "12110"},
+      {"G90 G91 X9", "G91 is the second G function of group 14 in this block", "12060"},
+      {"G41 G42", "G42 is the second G function of group 7 in this block", "12060"},
+      {"G17 G18", "G18 is the second G function of group 6 in this block", "12060"},
+      {"G54 G505", "G505 is the second G function of group 8 in this block", "12060"},
+
+      {"SUPA G53 G0 X5", "G53 is the second G function of group 9 in this block", "12060"},
+      {"DIAMON DIAMOF", "DIAMOF is the second G function of group 29 in this block", "12060"},
+      {"POS[X]=9 X8", "the address X appears twice in this block", ""},
+      {"POS[X]=9 POS[X]=8", "the axis X appears twice in this block", "12010"},
+      {"T1 T2", "the address T appears twice in this block", "12010"},
+      {"S500 S600", "the address S appears twice in this block", "12010"},
+      {"D1 D2", "the address D appears twice in this block", "12010"},
+      {"M3 M4", "an M function of the spindle appears twice in this block", "14760"},
+      {"M2=3 M2=5", "an M function of spindle 2 appears twice in this block", "14760"}};
+  for (const Case& each : cases) {
+    const std::string text = before + each.block + "\nM30\n";
+    EXPECT_EQ(mistake(text), each.said) << each.block;
+    EXPECT_NE(adviceOf(text).find(each.alarm), std::string::npos) << adviceOf(text);
+  }
+}
+
+/// What the blocks before theirs have chosen: the check says what it knows, the run refuses all of it.
+TEST(SinumerikBlockWords, ThatTheBlocksBeforeTell) {
+  const std::vector<Case> cases = {
+      {"G1\nX5 AP=45 RP=20", "X stands beside AP: the end point is polar or Cartesian, not both", "14280"},
+      {"G0 X5 RP=3", "X stands beside RP: the end point is polar or Cartesian, not both", "14280"},
+      {"G1 X5\nY5 I3", "G1 takes no I", "12110"},
+      {"G3 X0 Y20 I-20 J0\nX20 Y0 I0 J-20 AR=45", "X and AR determine the arc twice", "12110"},
+      {"CT X5 Y5\nX9 Y9 AR=40", "CT takes no AR", "12110"}};
+  for (const Case& each : cases) {
+    World world;
+    EXPECT_EQ(mistake(before + each.block + "\nM30\n"), each.said) << each.block;
+    EXPECT_EQ(world.alarm(before + each.block + "\n"), each.alarm) << each.block;
+  }
+  // G18: X and Z are the plane, Y stands beside polar coordinates. A label that is jumped to: nobody knows.
+  EXPECT_EQ(mistake(std::string(before) + "G18\nG1 Y5 AP=45 RP=20\nM30\n"), "");
+  EXPECT_EQ(mistake(std::string(before) + "G1 X5\nLA1: Y5 I3\nIF R1==1 GOTOB LA1\nM30\n"), "");
+  World world;
+  EXPECT_EQ(world.alarm(std::string(before) + "DEF AXIS AXV=(X)\nAX[AXV]=5 X6\n"), "12010");
+  EXPECT_EQ(world.alarm(std::string(before) + "DEF AXIS AXV=(X)\nG0 AX[AXV]=5 RP=6\n"), "14280");
+}
+
+/// CIP and CT in a block without axes hold for the blocks after it.
+TEST(SinumerikBlockWords, NamedMotionsAreModal) {
+  World world;
+  world.run(std::string(before) + "CIP\nX-20 Y0 I1=0 J1=20\n");
+  double highest = 0;
+  for (const auto& move : world.machine.moves)
+    highest = std::max(highest, world.control.channel.programFromAxes(move.to).y());
+  EXPECT_NEAR(highest, 20, 1e-3) << "the way goes through its intermediate point";
+}
+
+TEST(SinumerikBlockWords, ThatBelongTogether) {
+  for (const char* blocks : {"G17 G54 G90 G94 G71 G64 G40 G450 DIAMOF CFC",
+                             "G1 X5 Y5 ANG=45 RND=2 FRC=100 F500",
+                             "G2 X0 Y-20 I=AC(0) J=AC(0)",
+                             "G3 AR=90 I-20 J0",
+                             "G3 X0 Y20 AR=90",
+                             "G3 X0 Y20 Z40 CR=20 TURN=1",
+                             "G33 Z40 K2",
+                             "G33 Z40 K2 SF=90",
+                             "G0 AP=90 RP=20 Z40",
+                             "G4 S30",
+                             "G4 F1",
+                             "G75 FP=1 X1=0 Z1=0",
+                             "G25 S100",
+                             "G110 AP=30 RP=5",
+                             "ROT RPL=30",
+                             "CIP X0 Y20 I1=14.142 J1=14.142",
+                             "G1 X5 LEAD=3 TILT=5",
+                             "T1 M6 D1",
+                             "S500 M3 S2=300 M2=3",
+                             "M5 M9",
+                             "BSPLINE X5 Y5 PW=2 PL=3",
+                             "INVCW X5 Y5 I1 J2 CR=4",
+                             "POS[X]=5 POS[Y]=6 G0 Z60",
+                             "H1=5 H2=7 X5"})
+    EXPECT_EQ(mistake(std::string("T1 D1\n") + before + blocks + "\nM30\n").find("tak"), std::string::npos)
+        << blocks << ": " << mistake(std::string("T1 D1\n") + before + blocks + "\nM30\n");
+}
+
+}  // namespace
+}  // namespace probewright::language::sinumerik
