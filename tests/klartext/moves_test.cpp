@@ -80,6 +80,9 @@ TEST(Moves, MachineFunctions) {
   EXPECT_EQ(irOf("M94 C"), "M94 C");
   EXPECT_EQ(irOf("L X+0 M99"), "Linear X=0 | CYCL CALL");
   EXPECT_EQ(irOf("STOP M5"), "Stop | M5");
+  EXPECT_EQ(irOf("STOP M0"), "Stop");
+  EXPECT_EQ(irOf("STOP M1"), "Stop");
+  EXPECT_EQ(irOf("STOP M0 M8"), "Stop | M8");
   EXPECT_EQ(irOf("M1"), "Stop optional");
 }
 

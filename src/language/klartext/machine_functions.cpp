@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "language/klartext/parser.hpp"
 
 #include <fmt/format.h>
@@ -130,13 +132,20 @@ bool BlockParser::machineFunctionBlock() {
 }
 
 void BlockParser::emitWithMachineFunctions(const Instruction* instruction) {
+  const auto isStop = [](const Instruction& each) {
+    const auto* stop = std::get_if<Stop>(&each);
+    return stop != nullptr && !stop->optional;
+  };
+  // STOP M0 stops once.
+  const bool stops =
+      (instruction != nullptr && isStop(*instruction)) || std::ranges::any_of(block_.instructions, isStop);
   const auto emitFunction = [&](const MachineFunction& function) {
     switch (function.number) {
       case 0:
-        emit(Stop{});
+        if (!stops) emit(Stop{});
         break;
       case 1:
-        emit(Stop{.optional = true});
+        if (!stops) emit(Stop{.optional = true});
         break;
       case 2:
       case 30:
