@@ -82,7 +82,23 @@ private:
     if (code < 1 || code > most) throw NotCarriedOver(fmt::format("Q{} = {} names no axis", number, option(number)));
     return code - 1;
   }
-  bool asked(int number) const { return call_.has(nameOf(number)) && !(q(number) == 0); }
+  bool asked(int number) const {
+    if (!call_.has(nameOf(number))) return false;
+    if (!q(number).isNumber()) throw NotCarriedOver(fmt::format("Q{} is known only when the program runs", number));
+    return !(q(number) == 0);
+  }
+
+  /// The limits of a size as its cycle takes them: 0 and 0 are none.
+  std::optional<Limits> limitsOf(int upper, int lower, const Quantity& size) const {
+    const Quantity most = q(upper), least = q(lower);
+    if (most == 0 && least == 0) return std::nullopt;
+    Limits limits{most - size, least - size};
+    const auto isSet = [](const Quantity& each) { return each.isNumber() && !(each == 0); };
+    if (isSet(most) || isSet(least)) return limits;
+    for (const Quantity& each : {most, least})
+      if (!each.isNumber()) limits.unlessZero.push_back(each);
+    return limits;
+  }
 
   /// Heights and way of approach, which nearly all cycles have.
   MeasuringTask begun(Feature feature) const {
@@ -246,11 +262,12 @@ private:
 
   std::vector<MeasuringTask> inspectedBoltCircle() {
     MeasuringTask task = boltCircle();
-    if (!(q(288) == 0 && q(289) == 0)) task.limits[0] = Limits{q(288) - q(262), q(289) - q(262)};
+    task.limits[0] = limitsOf(288, 289, q(262));
     task.centreTolerance = {q(279), q(280)};
     task.stops = asked(309);
-    if (asked(281)) losses_.push_back("Q281: no measuring log is written of three holes");
-    if (asked(330) || !call_.text("Q330").empty()) losses_.push_back("Q330: the breakage of a tool is not monitored");
+    if (!(q(281) == 0)) losses_.push_back("Q281: no measuring log is written of three holes");
+    if (!(q(330) == 0) || !call_.text("Q330").empty())
+      losses_.push_back("Q330: the breakage of a tool is not monitored");
     return {task};
   }
 
@@ -404,11 +421,8 @@ private:
   }
 
   std::vector<MeasuringTask> inspection(MeasuringTask task, const std::vector<LimitNumbers>& limits) {
-    for (std::size_t i = 0; i < limits.size(); ++i) {
-      const Quantity upper = q(limits[i].upper), lower = q(limits[i].lower);
-      if (upper == 0 && lower == 0) continue;
-      task.limits[i] = Limits{upper - task.size[i], lower - task.size[i]};
-    }
+    for (std::size_t i = 0; i < limits.size(); ++i)
+      task.limits[i] = limitsOf(limits[i].upper, limits[i].lower, task.size[i]);
     task.centreTolerance = {q(279), q(280)};
     task.stops = asked(309);
     log(task);
@@ -419,8 +433,8 @@ private:
   /// The tool of Q330.
   std::optional<ToolCorrection> monitoredTool() {
     std::string tool = call_.text("Q330");
-    if (tool.empty() && !asked(330)) return std::nullopt;
     const Quantity number = q(330);
+    if (tool.empty() && number == 0) return std::nullopt;
     if (!number.isNumber()) {
       losses_.push_back("Q330: which tool is corrected is known only when the program runs");
       return std::nullopt;

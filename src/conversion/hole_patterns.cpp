@@ -69,15 +69,21 @@ ToSinumerik::Centre ToSinumerik::spigotCentre(const Block& block, int number, co
 void ToSinumerik::turnByPair(const MeasuringTask& pair, const std::vector<Centre>& centres) {
   const std::string angle = formulas_.declare("_HOLES_ANGLE");
   out_.line(fmt::format("{}=ATAN2({}-{},{}-{})", angle, centres[1][1], centres[0][1], centres[1][0], centres[0][0]));
-  setRotation(pair.active ? std::nullopt : std::optional(pair.row), Quantity::of(angle) - pair.angle);
+  if (!(pair.angle == 0)) {  // less than a turn, as rotations are
+    const std::string difference = sinumerikText(Quantity::of(angle) - pair.angle);
+    out_.line(fmt::format("{0}=ATAN2(SIN({1}),COS({1}))", angle, difference));
+  }
+  setRotation(pair.active ? std::nullopt : std::optional(pair.row), Quantity::of(angle));
 }
 
 Place ToSinumerik::holePattern(const Block& block, const MeasuringTask& given, const std::string& heidenhainCycle) {
   MeasuringTask pattern = given;
+  if (pattern.correction != Correction::None) listRowAfterZero(block, pattern.row);
   if (pattern.correction != Correction::None && pattern.row == 0) {
     takeRowZero();
     pattern.row = 99;
   }
+  if (pattern.correction != Correction::None && !pattern.row.isNumber()) pattern.row = runningRow(pattern.row, false);
   pattern.active = pattern.row.isNumber() && pattern.row.number() < 0;
   if (pattern.fromUnturned) takeRotationOut(pattern);
   std::vector<Centre> centres;
@@ -149,13 +155,16 @@ void ToSinumerik::judgePattern(const Block& block, const MeasuringTask& pattern,
   std::vector<std::string> scrap;  // no tool puts a circle of holes right
   if (pattern.limits[0]) {
     const Quantity deviation = Quantity::of(diameter) - pattern.size[0];
-    scrap.push_back(fmt::format("({}>{})", sinumerikText(deviation), sinumerikText(pattern.limits[0]->upper)));
-    scrap.push_back(fmt::format("({}<{})", sinumerikText(deviation), sinumerikText(pattern.limits[0]->lower)));
+    const Limits& limits = *pattern.limits[0];
+    for (const auto& [sign, limit] : {std::pair('>', &limits.upper), std::pair('<', &limits.lower)}) {
+      scrap.push_back(onlyUnlessZero(limits.unlessZero,
+                                     fmt::format("({}{}{})", sinumerikText(deviation), sign, sinumerikText(*limit))));
+    }
   }
   for (std::size_t i = 0; i < 2; ++i) {
     if (pattern.centreTolerance[i] == 0) continue;
-    scrap.push_back(fmt::format("(ABS({})>{})", sinumerikText(Quantity::of(centre[i]) - pattern.place[i]),
-                                sinumerikText(pattern.centreTolerance[i])));
+    scrap.push_back(
+        exceedsCentre(sinumerikText(Quantity::of(centre[i]) - pattern.place[i]), pattern.centreTolerance[i]));
   }
   const bool tells = !scrap.empty() && !pattern.stops;
   if (tells) {

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number_text.hpp"
+#include "base/text.hpp"
+#include "base/truncated.hpp"
 #include "control/alarm.hpp"
 #include "conversion/call.hpp"
 #include "conversion/sinumerik_formulas.hpp"
@@ -29,7 +32,19 @@ bool isParameter(std::string_view text) {
                      [](char c) { return c >= '0' && c <= '9'; });
 }
 
+constexpr int results = 32;  ///< _OVR[0] to _OVR[31]
+
 }  // namespace
+
+bool KlartextFormulas::namesParameter(std::string_view variable) {
+  if (!variable.starts_with("_Q") || !isParameter(variable.substr(1))) return false;
+  if (!isDigit(variable[2])) return true;  // QL, QR, QS
+  // The others stand for R parameters, results and intermediate values.
+  const int number = truncated(parseDecimal(variable.substr(2)).value_or(0));
+  const auto within = [&](int first, int last) { return number >= first && number <= last; };
+  return within(100, 1199) ||
+         (within(1600, 1999) && !within(firstResult, firstResult + results - 1) && !within(firstHelper, lastHelper));
+}
 
 std::string KlartextFormulas::define(std::string_view name, Holds holds) {
   const bool text = holds == Holds::Text;
@@ -40,9 +55,14 @@ std::string KlartextFormulas::define(std::string_view name, Holds holds) {
     if (nextLocal_ == localParameters) {
       throw NotCarriedOver("the program defines more variables than there are QL parameters");
     }
+    while (reserved_.contains(fmt::format("QL{}", nextLocal_)))
+      ++nextLocal_;
     return names_.emplace(name, fmt::format("QL{}", nextLocal_++)).first->second;
   }
-  const std::string number = text ? fmt::format("QS{}", nextText_++) : fmt::format("Q{}", nextNumber_++);
+  std::string number;
+  do {
+    number = text ? fmt::format("QS{}", nextText_++) : fmt::format("Q{}", nextNumber_++);
+  } while (reserved_.contains(number));
   if (nextNumber_ > firstResult || nextText_ > firstResult) {
     throw NotCarriedOver("the program defines more variables than there are free Q parameters");
   }
@@ -66,10 +86,10 @@ std::string KlartextFormulas::variable(const Block& block, const VariableRef& va
       throw NotCarriedOver(fmt::format("R{} has no twin: R0 to R499 have", index));
     case VariableSpace::User: {
       const std::string_view name = block.at(variable.name);
-      if (name == "_OVR" && variable.index[0].isLiteral() && index >= 0 && index < 32) {
+      if (name == "_OVR" && variable.index[0].isLiteral() && index >= 0 && index < results) {
         return fmt::format("Q{}", firstResult + index);
       }
-      if (!indexed && name.starts_with("_Q") && isParameter(name.substr(1))) return std::string(name.substr(1));
+      if (!indexed && namesParameter(name)) return std::string(name.substr(1));
       return userVariable(block, variable);
     }
     case VariableSpace::System:

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -59,6 +60,11 @@ public:
   enum class Holds { Number, Text };
   std::string define(std::string_view name, Holds holds = Holds::Number);
 
+  /// A variable that a conversion to SINUMERIK has named after the parameter it stands for: "_Q150", "_QL1".
+  static bool namesParameter(std::string_view variable);
+  /// The program uses that parameter itself: no variable that is defined gets it.
+  void reserve(std::string_view parameter) { reserved_.emplace(parameter); }
+
   /// The first of the four parameters that measuring blocks fill: ball centre X, Y, Z and whether it was touched.
   /// `toolAxis`: 0 to 2; $AA_MW, which reads them, counts in it to the tip.
   std::string measuringBlock(int toolAxis);
@@ -83,6 +89,7 @@ private:
   const GlobalData* globalData_;
   std::vector<std::string> globalValues_;
   std::map<std::string, std::string, std::less<>> names_;
+  std::set<std::string, std::less<>> reserved_;
   int nextNumber_ = 1600;
   int nextText_ = 1600;
   int nextHelper_ = 0;

@@ -72,6 +72,8 @@ enum class Meaning {
 
 struct Limits {
   Quantity upper, lower;  ///< deviations from the set size
+  /// Where only the running program knows whether there are limits: values that are all 0 if there are none.
+  std::vector<Quantity> unlessZero = {};
 };
 
 /// The tool that made what is measured, corrected by half the deviation of a size or the whole one of a surface.

@@ -72,6 +72,10 @@ void ToSinumerik::singleTouch(const Block& block, const CycleCall& cycle, const 
   }
 
   // Cycles 3 and 4: from where the probe is, along an angle or a vector.
+  if (besidePath_) {
+    out_.list(block, "this touch begins where the measuring cycle has left the probe",
+              "move to a place in the plane before it");
+  }
   const auto known = [&](std::uint32_t address, const char* what) {
     const Quantity value = call.number(wordName(address));
     if (!value.isNumber()) throw NotCarriedOver(fmt::format("{} is known only when the program runs", what));

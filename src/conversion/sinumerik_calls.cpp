@@ -141,9 +141,12 @@ private:
   std::optional<Limits> commonLimits() const {
     if (!task_.limits[0]) return std::nullopt;
     Limits limits = *task_.limits[0];
+    if (!limits.unlessZero.empty()) return std::nullopt;
     if (isRectangular(task_.feature)) {
       const auto& second = task_.limits[1];
-      if (!second || !(second->upper == limits.upper) || !(second->lower == limits.lower)) return std::nullopt;
+      if (!second || !second->unlessZero.empty() || !(second->upper == limits.upper) ||
+          !(second->lower == limits.lower))
+        return std::nullopt;
     }
     if (!(limits.upper - limits.lower).isNumber()) return std::nullopt;
     if ((limits.upper - limits.lower).number() < 0) {
@@ -186,8 +189,8 @@ private:
   }
 
   bool aboutNominal() const {
-    const auto& [upper, lower] = *task_.limits[0];
-    return upper == -lower && upper.isNumber() && upper.number() > 0;
+    const auto& [upper, lower, unlessZero] = *task_.limits[0];
+    return unlessZero.empty() && upper == -lower && upper.isNumber() && upper.number() > 0;
   }
 
   /// In the wear of its first edge, by the whole difference.
@@ -195,9 +198,8 @@ private:
     set("S_KNUM1", 1);
     passage_.call.texts["S_TNAME"] = task_.tool->tool;
     if (!task_.limits[0] || !aboutNominal()) return;  // a tolerance would move the set value to its middle
-    const auto& [upper, lower] = *task_.limits[0];
-    set("S_TUL", upper);
-    set("S_TLL", lower);
+    set("S_TUL", task_.limits[0]->upper);
+    set("S_TLL", task_.limits[0]->lower);
     set("_AMODE", 1);
   }
 

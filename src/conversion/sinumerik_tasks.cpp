@@ -104,9 +104,10 @@ private:
     const int kind = call_.digit("S_MVAR", 3);
     if (kind == 2) return correctedTool(task);
     if (kind != 1 || number("S_KNUM") == 0) return;
-    task.correction = Correction::Origin;
     const int code = call_.integer("S_KNUM");
     const int which = code / 1000 % 10;
+    if (code % 1000 == 0 && code >= 0 && code < 20000 && which != 2 && which != 9) return;  // no number, no correction
+    task.correction = Correction::Origin;
     if (which == 9) {
       task.active = true;
     } else if (which == 0 && code % 1000 >= 1 && code % 1000 <= 99) {

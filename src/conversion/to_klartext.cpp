@@ -67,6 +67,9 @@ void ToKlartext::survey() {
   for (BlockPosition at = program_.begin(); program_.parse(at, block, result_.mistakes); at = block.next) {
     if (block.at(block.source).find(sharedParametersRemark) != std::string_view::npos) formulas_.knowSharedParameters();
     for (const VariableRef& variable : block.variables) {
+      const std::string_view own = variable.space == VariableSpace::User ? block.at(variable.name) : std::string_view();
+      measuresAsCycles_ = measuresAsCycles_ || own == "_MEAS_REST";
+      if (KlartextFormulas::namesParameter(own)) formulas_.reserve(own.substr(1));
       const bool result = variable.space == VariableSpace::User && block.at(variable.name) == "_OVR";
       if (!result || !variable.index[0].isLiteral()) continue;
       usedResults_.insert(static_cast<int>(variable.index[0].number));
@@ -97,6 +100,7 @@ Conversion ToKlartext::run() {
   if (hasErrors(result_.mistakes)) return std::move(result_);
   surveyFlow();
   surveyModes();
+  surveyPlaces();
   if (millimetre_ != 1) formulas_.countInches();
   Diagnostics ignored;
   Block block;
@@ -130,6 +134,25 @@ void ToKlartext::writeWhole(std::vector<std::string> lines) {
     out_.line(std::move(each));
 }
 
+void ToKlartext::listPositionsRead(const Block& block) {
+  const auto isElsewhere = [&](const VariableRef& variable) {
+    const std::string_view name = block.at(variable.name);
+    if (name != "$AA_IW" && name != "$AA_IM" && name != "$P_EP") return false;
+    if (besideMeasured_) return !measuresAsCycles_;
+    const Operand& index = variable.index[0];
+    const bool isNamed =
+        index.node >= 0 && block.nodes[static_cast<std::size_t>(index.node)].operation == Operation::Text;
+    const auto which = isNamed ? planeIndex(addressOf(block.at(block.nodes[static_cast<std::size_t>(index.node)].text)))
+                               : std::nullopt;
+    return which ? beside_.at(*which) : std::ranges::find(beside_, true) != beside_.end();
+  };
+  // What conversions write themselves: up to a height, never down.
+  const bool isUp = block.at(block.source).find("=MAXVAL($AA_IW[") != std::string_view::npos;
+  if (isUp || !std::ranges::any_of(block.variables, isElsewhere)) return;
+  out_.list(block, "the position is where the measuring cycle has left the probe, which is elsewhere here",
+            "move to the place in all three axes before reading it");
+}
+
 void ToKlartext::write(const Block& block) {
   const std::string_view source = block.at(block.source);
   const std::string_view remark = trimmed(commentOf(source), lineBlanks);
@@ -143,6 +166,7 @@ void ToKlartext::write(const Block& block) {
               fmt::format("block skip /{}: a HEIDENHAIN control has one switch for all blocks with /", block.skipLevel),
               "use / alone");
   }
+  listPositionsRead(block);
   try {
     statements(block);
     if (block.instructions.empty() && remark.empty()) {

@@ -55,6 +55,14 @@ private:
   };
   /// Follows all ways through the program; where several meet, `entries_` has what all of them agree on.
   void surveyModes();
+  /// Where the probe may stand elsewhere than the original program left it, on one of the ways to a block at least.
+  struct Beside {
+    std::array<bool, 3> cycle{};  ///< X, Y, Z: by a measuring cycle
+    bool measured = false;        ///< by a measuring block
+    bool operator==(const Beside&) const = default;
+  };
+  void surveyPlaces();
+  void listPositionsRead(const language::Block& block);
   bool isNeutral(const language::Block& block) const;
   /// `next`: the blocks that may follow each block; `measures`: the block is a measuring cycle; `read`: n of the
   /// _OVR[n] that a block names.
@@ -226,7 +234,9 @@ private:
   TouchProbe probe_;
 
   std::map<std::uint64_t, Modes> entries_;  ///< by the offset of blocks that several ways lead to
-  std::array<bool, 3> shiftsEver_{};        ///< X, Y, Z
+  bool measuresAsCycles_ = false;  ///< measuring blocks stand for cycles 3 and 4, with what leads the probe back
+  std::map<std::uint64_t, Beside> besides_;  ///< the same
+  std::array<bool, 3> shiftsEver_{};         ///< X, Y, Z
 
   // Where the text has come to.
   struct Frame {

@@ -258,6 +258,12 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
   rely(block, logDoubtful_, "the measuring log (CYCLE150)");
   Losses losses;
   const bool calibrates = call.cycle == "CYCLE976";
+  if (std::ranges::find(beside_, true) != beside_.end()) {
+    out_.list(block,
+              "this cycle begins where the measuring cycle before it has left the probe, which is elsewhere here",
+              "move to the place before the cycle, in all three axes");
+    beside_ = {};
+  }
   const Place start = calibrates ? Place{} : here();
   MeasuringTask task = sinumerikTask(call, start, ballRadius_, losses);
   requireReach(block, task);

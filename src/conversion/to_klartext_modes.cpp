@@ -21,6 +21,20 @@ std::optional<std::size_t> letterOf(std::uint32_t address) {
   return place == std::string_view::npos ? std::nullopt : std::optional(place);
 }
 
+/// The touch probe cycle of this call may leave the probe elsewhere than the original one, and not bring it back: after
+/// a correction, and after features whose places it does not tell.
+bool mayLeaveElsewhere(const Block& block, const CallProgram& call) {
+  const cycles::CycleDefinition* cycle = cycles::sinumerikCycle(block.at(call.name));
+  if (cycle == nullptr || cycle->number == 150 || cycle->number == 971) return false;
+  if (cycle->number != 977 && cycle->number != 978) return true;
+  for (const Word& word : std::span<const Word>(block.words).subspan(call.arguments.first, call.arguments.count)) {
+    if (word.address != 0) continue;  // S_MVAR
+    const auto variant = literalOf(block, word.value);
+    return !variant || static_cast<int>(*variant) / 100 % 10 == 1;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::optional<MeasuringTask::Log> ToKlartext::logOf(const Block& block, const CallProgram& call) {
@@ -124,6 +138,71 @@ bool ToKlartext::agree(Modes& with, const Modes& other) {
   return !(with == before);
 }
 
+void ToKlartext::surveyPlaces() {
+  const std::size_t count = graph_.blocks().size();
+  Block block;
+  Diagnostics ignored;
+  bool countsFurther = false;  // G91: a plain word may be no place
+  const auto isG91 = [&](const Instruction& instruction) {
+    const auto* modal = std::get_if<Modal>(&instruction);
+    return modal != nullptr && block.at(modal->name) == "G91";
+  };
+  const auto survey = [&](Program& program) {
+    for (BlockPosition at = program.begin(); program.parse(at, block, ignored); at = block.next)
+      countsFurther = countsFurther || std::ranges::any_of(block.instructions, isG91);
+  };
+  survey(program_);
+  for (const auto& other : job_.others)
+    survey(*other);
+  const auto follow = [countsFurther](const Block& each, Beside& beside) {
+    for (const Instruction& instruction : each.instructions) {
+      if (const auto* call = std::get_if<CallProgram>(&instruction)) {
+        if (mayLeaveElsewhere(each, *call)) beside.cycle.fill(true);
+      } else if (const auto* command = std::get_if<Command>(&instruction)) {
+        if (each.at(command->name) == "MEAS") beside.measured = true;
+      } else if (const auto* move = std::get_if<Move>(&instruction)) {
+        for (const Word& word : std::span<const Word>(each.words).subspan(move->words.first, move->words.count)) {
+          const auto letter = letterOf(word.address);
+          const bool absolute = word.mode == WordMode::Absolute || (word.mode == WordMode::Plain && !countsFurther);
+          if (!letter || !absolute) continue;
+          beside.cycle.at(*letter) = false;
+          beside.measured = false;
+        }
+      }
+    }
+  };
+  const auto either = [](Beside& with, const Beside& other) {
+    const Beside before = with;
+    for (std::size_t i = 0; i < with.cycle.size(); ++i)
+      with.cycle[i] = with.cycle[i] || other.cycle[i];
+    with.measured = with.measured || other.measured;
+    return !(with == before);
+  };
+  std::vector<bool> neutral(count), calls(count), told(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    program_.parse(graph_.blocks()[i].position, block, ignored);
+    const Beside all{.cycle = {true, true, true}, .measured = true};
+    Beside none, left = all;
+    follow(block, none);
+    follow(block, left);
+    calls[i] = !job_.others.empty() && callsProgram(block);
+    neutral[i] = none == Beside() && left == all && !calls[i];
+    if (calls[i] && i + 1 < count) told[i + 1] = true;
+  }
+  Beside first;
+  if (job_.called && count > 0) {
+    meetOthers(job_, first, follow, either);
+    told[0] = true;
+  }
+  const auto followBlock = [&](std::size_t place, Beside& beside) {
+    if (neutral[place]) return;
+    program_.parse(graph_.blocks()[place].position, block, ignored);
+    follow(block, beside);
+    if (calls[place]) meetOthers(job_, beside, follow, either);
+  };
+  besides_ = modesWhereWaysMeet<Beside>(graph_, followers(graph_, neutral), followBlock, either, first, told);
+}
+
 void ToKlartext::surveyModes() {
   Block block;
   Diagnostics ignored;
@@ -216,6 +295,11 @@ std::set<int> ToKlartext::wantedAfter(const Block& block) const {
 
 void ToKlartext::adopt(const Block& block) {
   relied_ = false;
+  if (const auto beside = besides_.find(block.position.offset); beside != besides_.end()) {
+    for (std::size_t i = 0; i < 3; ++i)
+      beside_[i] = beside->second.cycle.at(static_cast<std::size_t>(axis(i)[0] - 'X'));
+    besideMeasured_ = beside->second.measured;
+  }
   const auto found = entries_.find(block.position.offset);
   if (found == entries_.end()) return;
   const Modes& modes = found->second;

@@ -157,7 +157,7 @@ void ToKlartext::define(const Block& block, const Command& command) {
   values.resize(elements.size());
   for (std::size_t i = 0; i < elements.size(); ++i) {
     if (variable.index[0].present()) elements[i] += ']';
-    const bool known = elements.size() == 1 && own.starts_with("_Q");
+    const bool known = !variable.index[0].present() && KlartextFormulas::namesParameter(own);
     const std::string target =
         known ? own.substr(1)
               : formulas_.define(elements[i], isText ? KlartextFormulas::Holds::Text : KlartextFormulas::Holds::Number);

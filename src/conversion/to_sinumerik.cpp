@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/number_text.hpp"
+#include "conversion/modes.hpp"
 #include "language/klartext/block_extent.hpp"
 #include "language/klartext/commands.hpp"
 #include "language/klartext/cycle_writer.hpp"
@@ -36,7 +37,12 @@ std::optional<std::size_t> ToSinumerik::planeIndex(std::uint32_t address) const 
 void ToSinumerik::survey() {
   usedQ_ = job_.parameters;
   Block block;
+  Diagnostics ignored;
+  for (const auto& other : job_.others)
+    for (BlockPosition at = other->begin(); other->parse(at, block, ignored); at = block.next)
+      surveyRows(block);
   for (BlockPosition at = program_.begin(); program_.parse(at, block, result_.mistakes); at = block.next) {
+    surveyRows(block);
     for (const VariableRef& variable : block.variables) {
       if (variable.space != VariableSpace::Q || !variable.index[0].isLiteral()) continue;
       usedQ_.insert(static_cast<int>(variable.index[0].number));
@@ -52,6 +58,43 @@ void ToSinumerik::survey() {
       }
     }
   }
+}
+
+namespace {
+
+/// The rows of the preset table that a block names by number: Q305 of cycles, Q339 of cycle 247.
+std::vector<int> rowsOf(const Block& block) {
+  std::vector<int> rows;
+  const auto add = [&](const Word& word) {
+    if (const auto row = literalOf(block, word.value)) rows.push_back(static_cast<int>(*row));
+  };
+  for (const Instruction& instruction : block.instructions) {
+    if (const auto* cycle = std::get_if<CycleCall>(&instruction)) {
+      constexpr std::uint32_t numberInTable = 305;
+      for (std::uint32_t i = 0; i < cycle->parameters.count; ++i) {
+        const Word& word = block.words[cycle->parameters.first + i];
+        if (word.address == numberInTable) add(word);
+      }
+    } else if (const auto* change = std::get_if<Transform>(&instruction)) {
+      if (klartext::kindOf(block, *change) == klartext::TransformKind::PresetByCycle && change->words.count > 0)
+        add(block.words[change->words.first]);
+    }
+  }
+  return rows;
+}
+
+bool namesRow99(const Block& block) {
+  const std::vector<int> rows = rowsOf(block);
+  return std::ranges::find(rows, 99) != rows.end();
+}
+
+}  // namespace
+
+void ToSinumerik::surveyRows(const Block& block) {
+  const std::vector<int> rows = rowsOf(block);
+  if (std::ranges::find(rows, 0) == rows.end()) return;
+  selectsRow0_ = true;
+  cyclesSetRow0_ = cyclesSetRow0_ || std::holds_alternative<CycleCall>(block.instructions.front());
 }
 
 /// Whether this CC names the point that all others name.
@@ -73,6 +116,7 @@ Conversion ToSinumerik::run() {
   if (!hasErrors(result_.mistakes)) {
     surveyFlow();
     surveyModes();
+    surveyPlaces();
     if (program_.unit() == klartext::Unit::Inch) {
       millimetre_ = 1 / millimetresOfInch;
       ballRadius_ = ballRadius_ * millimetre_;
@@ -123,6 +167,10 @@ void ToSinumerik::write(const Block& block) {
         block,
         "QS parameters are variables of this program alone: the programs that it calls or that call it have their own",
         "declare them as global user data, in a definition file");
+  }
+  if (selectsRow0_ && !listedRow99_ && namesRow99(block)) {
+    listedRow99_ = true;
+    out_.list(block, "row 99 becomes G599, which also stands for row 0 of this job", "use another row than 99");
   }
   try {
     for (const Instruction& each : block.instructions)
@@ -351,6 +399,11 @@ void ToSinumerik::command(const Block& block, const Command& command) {
     const std::string target = formulas_.variable(block.variables[static_cast<std::size_t>(command.variable)]);
     const bool position = id == 270 && index.isNumber() && index.number() >= 1 && index.number() <= 3;
     if (position) {
+      if (besidePath_ && planeIndex(addressOf(std::string_view("XYZ").substr(
+                             static_cast<std::size_t>(index.number()) - 1, 1))) != std::optional<std::size_t>(2)) {
+        out_.list(block, "the position is where the measuring cycle has left the probe",
+                  "move to a place in the plane before reading it");
+      }
       // FN 18 answers in millimetres, $AA_IW in the unit of the program.
       return out_.line(fmt::format("{}=$AA_IW[{}]{}", target, "XYZ"[static_cast<std::size_t>(index.number()) - 1],
                                    millimetre_ == 1 ? std::string() : fmt::format("*{}", numberText(1 / millimetre_))));

@@ -29,6 +29,7 @@ public:
 private:
   // to_sinumerik.cpp: the program and its flow
   void survey();
+  void surveyRows(const language::Block& block);
   void surveyCentre(const language::Block& block, const language::Move& move);
   void write(const language::Block& block);
   std::vector<std::string> head() const;
@@ -69,6 +70,8 @@ private:
     bool operator==(const Modes&) const = default;
   };
   void surveyModes();
+  /// Where the probe may stand beside its path, on one of the ways to a block at least.
+  void surveyPlaces();
   static void follow(const language::Block& block, Modes& modes);
   static bool agree(Modes& with, const Modes& other);
   /// Takes over what all ways to this block agree on.
@@ -138,9 +141,15 @@ private:
   void takeRotationOut(const MeasuringTask& task);
   /// The rotation of a zero offset about the tool axis; without `row` of the one in effect.
   void setRotation(const std::optional<Quantity>& row, const Quantity& angle);
-  void basicRotation(const Call& call);
+  void basicRotation(const language::Block& block, const Call& call);
+  /// Lists that the cycle corrects a row after another one has set row 0 (Q305 = 0): a TNC 640 goes on in row 0, an
+  /// iTNC 530 in the row that was in effect.
+  void listRowAfterZero(const language::Block& block, const Quantity& row);
   /// Row 0, the preset that a cycle sets at once; here the last settable zero offset, a copy of the active one.
   void takeRowZero();
+  /// The number of the zero offset for a row that only the running program knows; it takes row 0 over as takeRowZero
+  /// does, or as the one in effect (`zeroIsActive`), and negative rows as the one in effect.
+  Quantity runningRow(const Quantity& row, bool zeroIsActive);
   /// Writes a component of a zero offset, "Z,RT", and selects it again if it is in effect; without `row` that of the
   /// one in effect. `value` makes the new one of the text of the present one.
   void setComponent(const std::optional<Quantity>& row, const std::string& component,
@@ -148,6 +157,10 @@ private:
   /// Selects the zero offset that is in effect again, so that what was written to it acts.
   void selectAgain();
   void judge(const language::Block& block, const MeasuringTask& task, const SinumerikPassage& passage);
+  /// The condition, if one of the values is not 0.
+  static std::string onlyUnlessZero(const std::vector<Quantity>& values, const std::string& condition);
+  /// Whether the deviation of a centre exceeds its tolerance; one of 0 is none.
+  static std::string exceedsCentre(const std::string& deviation, const Quantity& tolerance);
   /// Sets Q180 to Q182 by conditions, and stops or tells, if that is asked for.
   void decide(const std::vector<std::string>& rework, const std::vector<std::string>& scrap, bool stops, bool tells);
   std::string parameter(int number);
@@ -178,6 +191,9 @@ private:
   std::set<std::string> calledLabels_;  ///< as subprograms
   std::map<std::string, std::string, std::less<>> labelNames_;
   std::set<int> usedQ_;
+  bool selectsRow0_ = false;  ///< a cycle of the job sets or selects row 0 of the preset table
+  bool cyclesSetRow0_ = false;
+  bool listedRow99_ = false;
   bool compensates_ = false;
   bool callsTools_ = false;
   bool sharesText_ = false;  ///< it is listed that texts are not shared
@@ -188,6 +204,7 @@ private:
   std::map<std::uint64_t, std::size_t> countsOf_;   ///< count of each repetition, the same
   std::vector<std::string> callStack_;              ///< its definitions
   std::map<std::uint64_t, Modes> entries_;          ///< by the offset of blocks that several ways lead to
+  std::map<std::uint64_t, bool> besides_;           ///< the same: besidePath_
 
   // Where the text has come to.
   char toolAxis_ = 'Z';

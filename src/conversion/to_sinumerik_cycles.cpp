@@ -72,7 +72,12 @@ Call ToSinumerik::callOf(const Block& block, const CycleCall& cycle) {
 void ToSinumerik::globalDefinition(const Block& block, const Command& command) {
   const auto words = std::span<const Word>(block.words).subspan(command.words.first, command.words.count);
   for (const Word& word : words.subspan(1)) {
-    const Quantity value = quantity(block, word.value);
+    Quantity value = quantity(block, word.value);
+    if (!value.isNumber()) {  // as it is here, whatever becomes of the parameter
+      const std::string own = formulas_.declare(fmt::format("_GLOBAL_{}", word.address));
+      out_.line(fmt::format("{}={}", own, sinumerikText(value)));
+      value = Quantity::of(own);
+    }
     const auto [global, isNew] = global_.try_emplace(static_cast<int>(word.address), value);
     if (!isNew && graph_.branches() && !(global->second == value)) {
       out_.list(
@@ -93,7 +98,7 @@ void ToSinumerik::cycle(const Block& block, const CycleCall& cycle) {
   const Call call = callOf(block, cycle);
   listForbiddenFrame(block, cycle.number);
   if (measuresTools(cycle.number)) return toolMeasurement(block, call);
-  if (cycle.number == 404) return basicRotation(call);
+  if (cycle.number == 404) return basicRotation(block, call);
   if (cycle.number == 403) return alignRotaryAxis(block, call);
   if (cycle.number == 0 || cycle.number == 3 || cycle.number == 4) return singleTouch(block, cycle, call);
   Losses losses;
@@ -129,7 +134,15 @@ void ToSinumerik::listForbiddenFrame(const Block& block, int cycle) {
   const auto forbidden = cycles::heidenhain::forbiddenTransformations(entry->conditions);
   const bool shifted = std::ranges::any_of(frame_.shift, [](const Quantity& each) { return !(each == 0); });
   const bool turned = frame_.rotation && !(*frame_.rotation == 0);
-  if (!frame_.known || !((forbidden.shift && shifted) || (forbidden.rotation && turned))) return;
+  const bool mayBeShifted = forbidden.shift && !frame_.known, mayBeTurned = forbidden.rotation && !frame_.rotation;
+  if (mayBeShifted || mayBeTurned) {
+    return out_.list(block,
+                     fmt::format("on one of the ways to this block a {} by the program is in effect, with which a TNC "
+                                 "640 stops at cycle {}; the SINUMERIK measures",
+                                 mayBeShifted ? "datum shift" : "rotation", cycle),
+                     "reset it on every way to the cycle");
+  }
+  if (!((forbidden.shift && shifted) || (forbidden.rotation && turned))) return;
   out_.list(block,
             fmt::format("a {} by the program is in effect here, with which a TNC 640 stops at cycle {}; the SINUMERIK "
                         "measures",
@@ -166,9 +179,13 @@ void ToSinumerik::approach(const Place& start, const Quantity& clearance) {
 Place ToSinumerik::task(const Block& block, const MeasuringTask& given, const std::string& heidenhainCycle) {
   MeasuringTask task = given;
   const bool corrects = task.correction != Correction::None;
+  if (corrects && !task.active) listRowAfterZero(block, task.row);
   if (corrects && !task.active && task.row == 0) {
     takeRowZero();
     task.row = 99;
+  }
+  if (corrects && !task.active && !task.row.isNumber()) {
+    task.row = runningRow(task.row, task.correction == Correction::Rotation);
   }
   Losses losses;
   const SinumerikPassage passage = sinumerikPassage(task, ballRadius_, losses);
@@ -322,9 +339,39 @@ void ToSinumerik::takeRowZero() {
   forgetPosition();
 }
 
-void ToSinumerik::basicRotation(const Call& call) {
-  const Quantity row = call.has("Q305") ? call.number("Q305") : Quantity(-1);
+Quantity ToSinumerik::runningRow(const Quantity& row, bool zeroIsActive) {
+  const std::string own = formulas_.declare("_ROW");
+  out_.line(fmt::format("{}={}", own, sinumerikText(row)));
+  out_.line(fmt::format("IF {}<{}0", own, zeroIsActive ? "=" : ""));
+  out_.line(fmt::format("  {}=$P_UIFRNUM", own));
+  out_.line("ENDIF");
+  if (!zeroIsActive) {
+    out_.line(fmt::format("IF {}==0", own));
+    out_.line("  $P_UIFR[99]=$P_UIFR[$P_UIFRNUM]");
+    out_.line(fmt::format("  {}", settableCode(0)));
+    out_.line(fmt::format("  {}=99", own));
+    out_.line("ENDIF");
+    activeRow_.reset();
+  }
+  forgetPosition();
+  return Quantity::of(own);
+}
+
+void ToSinumerik::listRowAfterZero(const Block& block, const Quantity& row) {
+  const bool inRow0 = (!activeRow_ && graph_.branches()) || activeRow_ == std::optional(99);
+  if (!cyclesSetRow0_ || !inRow0 || (row.isNumber() && row.number() <= 0)) return;
+  out_.list(
+      block,
+      "with Q305 = 0 in the cycle before a TNC 640 goes on in row 0, an iTNC 530 in the row in effect, which this "
+      "cycle may set at once; the SINUMERIK does as a TNC 640",
+      "select a row with cycle 247 before this cycle");
+}
+
+void ToSinumerik::basicRotation(const Block& block, const Call& call) {
+  Quantity row = call.has("Q305") ? call.number("Q305") : Quantity(-1);
+  listRowAfterZero(block, row);
   if (row == 0) takeRowZero();
+  if (!row.isNumber()) row = runningRow(row, false);
   const bool active = row.isNumber() && row.number() <= 0;
   setRotation(active ? std::nullopt : std::optional(row), call.number("Q307"));
 }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "conversion/modes.hpp"
 #include "conversion/to_sinumerik.hpp"
@@ -13,6 +14,16 @@ using namespace language;
 using klartext::TransformKind;
 
 namespace {
+
+/// X, Y or Z is given. The height alone leads nowhere else in the plane, but which axis that is may differ.
+bool leadsToPlace(const Block& block, const Move& move) {
+  if (move.kind == MoveKind::SetCentre) return false;
+  const auto words = std::span<const Word>(block.words).subspan(move.words.first, move.words.count);
+  const auto given = [&](char letter) {
+    return std::ranges::any_of(words, [&](const Word& word) { return word.address == static_cast<unsigned>(letter); });
+  };
+  return static_cast<int>(given('X')) + static_cast<int>(given('Y')) + static_cast<int>(given('Z')) > 1;
+}
 
 bool isShift(TransformKind kind) { return kind == TransformKind::DatumShift || kind == TransformKind::TransDatumAxis; }
 bool isRotation(TransformKind kind) {
@@ -171,6 +182,46 @@ bool ToSinumerik::agree(Modes& with, const Modes& other) {
   return !(with == before);
 }
 
+void ToSinumerik::surveyPlaces() {
+  if (!graph_.branches() && job_.others.empty()) return;
+  const auto follow = [](const Block& each, bool& beside) {
+    for (const Instruction& instruction : each.instructions) {
+      constexpr int basicRotation = 404;  // nothing moves
+      if (const auto* cycle = std::get_if<CycleCall>(&instruction)) {
+        beside = beside || (each.at(cycle->name) == "TCH PROBE" && cycle->number != basicRotation);
+      } else if (const auto* travel = std::get_if<Move>(&instruction)) {
+        beside = beside && !leadsToPlace(each, *travel);
+      }
+    }
+  };
+  const auto either = [](bool& with, const bool& other) { return !std::exchange(with, with || other) && with; };
+  const std::size_t count = graph_.blocks().size();
+  std::vector<bool> neutral(count), calls(count), told(count);
+  Block block;
+  Diagnostics ignored;
+  for (std::size_t i = 0; i < count; ++i) {
+    program_.parse(graph_.blocks()[i].position, block, ignored);
+    bool no = false, yes = true;
+    follow(block, no);
+    follow(block, yes);
+    calls[i] = !job_.others.empty() && callsProgram(block);
+    neutral[i] = !no && yes && !calls[i];
+    if (calls[i] && i + 1 < count) told[i + 1] = true;
+  }
+  bool first = false;
+  if (job_.called && count > 0) {
+    meetOthers(job_, first, follow, either);
+    told[0] = true;
+  }
+  const auto followBlock = [&](std::size_t place, bool& beside) {
+    if (neutral[place]) return;
+    program_.parse(graph_.blocks()[place].position, block, ignored);
+    follow(block, beside);
+    if (calls[place]) meetOthers(job_, beside, follow, either);
+  };
+  besides_ = modesWhereWaysMeet<bool>(graph_, followers(graph_, neutral), followBlock, either, first, told);
+}
+
 void ToSinumerik::surveyModes() {
   if (!graph_.branches() && job_.others.empty()) return;
   Block block;
@@ -205,6 +256,7 @@ void ToSinumerik::surveyModes() {
 }
 
 void ToSinumerik::adopt(const Block& block) {
+  if (const auto beside = besides_.find(block.position.offset); beside != besides_.end()) besidePath_ = beside->second;
   const auto found = entries_.find(block.position.offset);
   if (found == entries_.end()) return;
   const Modes& modes = found->second;
@@ -217,6 +269,7 @@ void ToSinumerik::adopt(const Block& block) {
   for (std::size_t i = 0; i < 3; ++i)
     frame_.shift[i] = modes.shift ? (*modes.shift)[static_cast<std::size_t>(axis(i)[0] - 'X')] : 0;
   activeRow_ = modes.row;
+  arcDirection_ = 0;
 }
 
 void ToSinumerik::requireAxis() const {

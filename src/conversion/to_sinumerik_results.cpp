@@ -92,6 +92,20 @@ void ToSinumerik::copyResults(const Block& block, const std::string& heidenhainC
     out_.lose(block, fmt::format("Q{}: the SINUMERIK cycle has no such result", number));
 }
 
+std::string ToSinumerik::onlyUnlessZero(const std::vector<Quantity>& values, const std::string& condition) {
+  if (values.empty()) return condition;
+  std::vector<std::string> set;
+  for (const Quantity& each : values)
+    set.push_back(fmt::format("({}<>0)", sinumerikText(each)));
+  const std::string any = fmt::format("{}", fmt::join(set, " OR "));
+  return fmt::format("({} AND {})", set.size() == 1 ? any : fmt::format("({})", any), condition);
+}
+
+std::string ToSinumerik::exceedsCentre(const std::string& deviation, const Quantity& tolerance) {
+  return onlyUnlessZero(tolerance.isNumber() ? std::vector<Quantity>() : std::vector{tolerance},
+                        fmt::format("(ABS({})>{})", deviation, sinumerikText(tolerance)));
+}
+
 void ToSinumerik::judge(const Block& block, const MeasuringTask& task, const SinumerikPassage& passage) {
   const bool flags = usedQ_.contains(180) || usedQ_.contains(181) || usedQ_.contains(182);
   // What the cycle itself does not judge the program does: as a message, or as the stop that is asked for.
@@ -108,8 +122,8 @@ void ToSinumerik::judge(const Block& block, const MeasuringTask& task, const Sin
   }
   const Results results = resultsOf(task, passage);
   std::vector<std::string> rework, scrap;
-  const auto compare = [&](Meaning meaning, const char* sign, const Quantity& limit) {
-    return fmt::format("({}{}{})", results.at(meaning), sign, sinumerikText(limit));
+  const auto compare = [&](Meaning meaning, const char* sign, const Quantity& limit, const Limits& limits) {
+    return onlyUnlessZero(limits.unlessZero, fmt::format("({}{}{})", results.at(meaning), sign, sinumerikText(limit)));
   };
   const bool surface = task.feature == Feature::Surface;
   static constexpr Meaning sizes[] = {Meaning::Size1Deviation, Meaning::Size2Deviation};
@@ -117,19 +131,22 @@ void ToSinumerik::judge(const Block& block, const MeasuringTask& task, const Sin
     if (!task.limits[i]) continue;
     Limits limits = *task.limits[i];
     bool inside = isInside(task.feature);
-    if (surface && (limits.upper - limits.lower).number() < 0) {
+    if (surface && !(limits.upper - limits.lower).isNumber()) {
+      out_.list(block, "which limit is the larger one is known only when the program runs",
+                "give Q288 and Q289 as numbers, or make sure that Q288 is the larger one");
+    } else if (surface && (limits.upper - limits.lower).number() < 0) {
       std::swap(limits.upper, limits.lower);
       inside = true;
     }
     const Meaning meaning = surface ? Meaning::CoordinateDeviation : sizes[i];
     // What is too small inside, or too large outside, still has material to take away.
-    (inside ? scrap : rework).push_back(compare(meaning, ">", limits.upper));
-    (inside ? rework : scrap).push_back(compare(meaning, "<", limits.lower));
+    (inside ? scrap : rework).push_back(compare(meaning, ">", limits.upper, limits));
+    (inside ? rework : scrap).push_back(compare(meaning, "<", limits.lower, limits));
   }
   static constexpr Meaning centres[] = {Meaning::Centre1Deviation, Meaning::Centre2Deviation};
   for (std::size_t i = 0; i < 2; ++i) {
     if (task.centreTolerance[i] == 0) continue;
-    scrap.push_back(fmt::format("(ABS({})>{})", results.at(centres[i]), sinumerikText(task.centreTolerance[i])));
+    scrap.push_back(exceedsCentre(results.at(centres[i]), task.centreTolerance[i]));
   }
   decide(rework, scrap, task.stops, tells);
 }
