@@ -34,7 +34,8 @@ if(PROBEWRIGHT_COVERAGE)
 endif()
 
 # Headers that nearly every file needs are compiled once; reading them anew takes more than half of a whole build. Each
-# file still includes what it uses: a build with PROBEWRIGHT_PRECOMPILE=OFF shows what was forgotten.
+# file still includes what it uses: a build with PROBEWRIGHT_PRECOMPILE=OFF shows what was forgotten. Of the kind "cycles" is what a
+# cycle is written with, for folders in which nearly every file needs it; elsewhere that costs more than it saves.
 option(PROBEWRIGHT_PRECOMPILE "Compile common headers of libraries once" ON)
 function(probewright_precompile target kind)
   if(NOT PROBEWRIGHT_PRECOMPILE)
@@ -47,6 +48,9 @@ function(probewright_precompile target kind)
     target_link_libraries(probewright_precompiled_${kind} PRIVATE probewright_options ${ARGN})
     set(headers <algorithm> <array> <cmath> <filesystem> <functional> <map> <memory> <numbers> <optional> <ranges> <span>
                 <string> <string_view> <variant> <vector> <Eigen/Geometry> <fmt/format.h>)
+    if(kind STREQUAL "cycles")
+      list(APPEND headers <cycles/heidenhain/context.hpp> <cycles/sinumerik/context.hpp>)
+    endif()
     if(kind STREQUAL "tests")
       list(APPEND headers <gmock/gmock.h> <gtest/gtest.h> <random>)
       target_compile_options(probewright_precompiled_${kind} PRIVATE ${PROBEWRIGHT_TEST_OPTIONS})
@@ -56,14 +60,17 @@ function(probewright_precompile target kind)
   target_precompile_headers(${target} REUSE_FROM probewright_precompiled_${kind})
 endfunction()
 
-# probewright_library(NAME [LINK targets...]): a static library of all .cpp files below the calling folder.
+# probewright_library(NAME [LINK targets...] [PRECOMPILED kind]): a static library of all .cpp files below the calling folder.
 function(probewright_library name)
-  cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "PRECOMPILED" "LINK" ${ARGN})
+  if(NOT ARG_PRECOMPILED)
+    set(ARG_PRECOMPILED sources)
+  endif()
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   if(sources)
     add_library(probewright_${name} STATIC ${sources})
     target_link_libraries(probewright_${name} PUBLIC probewright_options ${ARG_LINK})
-    probewright_precompile(probewright_${name} sources)
+    probewright_precompile(probewright_${name} ${ARG_PRECOMPILED})
   else()
     add_library(probewright_${name} INTERFACE)
     target_link_libraries(probewright_${name} INTERFACE probewright_options ${ARG_LINK})
