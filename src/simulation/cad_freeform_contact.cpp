@@ -47,6 +47,15 @@ Vector2 parameterExtent(const CadElement& t) {
   return high - low;
 }
 
+/// The size of the whole surface in each parameter, as a limit for steps. At a pole the equations for a step have no
+/// single solution; splines that close refuse parameters many turns away.
+Vector2 parameterSize(const Geom_Surface& surface) {
+  constexpr double kMost = 1e6;
+  double u0 = 0, u1 = 0, v0 = 0, v1 = 0;
+  surface.Bounds(u0, u1, v0, v1);
+  return Vector2(u1 - u0, v1 - v0).cwiseMin(kMost);
+}
+
 /// Moves `at` to the parameters of the surface's point nearest to p, starting nearby. False if that does not settle.
 bool projectOntoSurface(const Geom_Surface& surface, const Vector3& p, const Vector2& extent, Vector2& at) {
   for (int i = 0; i < 30; ++i) {
@@ -61,6 +70,7 @@ bool projectOntoSurface(const Geom_Surface& surface, const Vector3& p, const Vec
     }
     if (hessian.determinant() <= 0) return false;
     Vector2 step = -hessian.inverse() * gradient;
+    if (!step.allFinite()) return false;
     step = step.cwiseMax(-extent).cwiseMin(extent);
     at += step;
     if ((s.u * step.x() + s.v * step.y()).norm() < 1e-11) return true;
@@ -254,8 +264,9 @@ private:
     // A ball that touches at the start within the tolerance and would graze only has nothing to meet.
     Vector2 later = at;
     const double end = std::min(way_.length, std::max(when, 0.0) + 1e-3 * radius_);
-    const Vector2 freely = Vector2::Constant(1e300);
-    if (projectOntoSurface(surface_, way_.at(end), freely, later) && gapAt(end, later) >= -kTouchTolerance) return true;
+    if (projectOntoSurface(surface_, way_.at(end), parameterSize(surface_), later) &&
+        gapAt(end, later) >= -kTouchTolerance)
+      return true;
     meet(std::max(0.0, when), at);
     return true;
   }
@@ -295,8 +306,8 @@ public:
       if (finer.when > best_.when - 1e-7) continue;
       if (depth < kDeepest && deviation > 1e-8) {
         near(ends[k], ends[k + 1], finer, depth + 1);
-      } else if (deviation < 1e-6 && counts(ends[k])) {
-        sweepSegment(way_, radius_, a, b, best_);
+      } else if (deviation < 1e-6) {
+        meetStraight(ends[k], ends[k + 1], a, b);
       }
     }
   }
@@ -312,6 +323,17 @@ private:
 
   bool counts(double t) const {
     return within_ == nullptr || within_->contains(edge_.acrossU ? Vector2(edge_.kinkAt, t) : Vector2(t, edge_.kinkAt));
+  }
+
+  /// Meets a piece that is as good as straight; beyond the border of the face that it is a kink of, there is nothing.
+  void meetStraight(double low, double high, const Vector3& a, const Vector3& b) {
+    Meeting met;
+    met.when = best_.when;
+    if (!sweepSegment(way_, radius_, a, b, met)) return;
+    const Vector3 line = b - a;
+    const double share =
+        line.squaredNorm() > 0 ? std::clamp(line.dot(met.point - a) / line.squaredNorm(), 0.0, 1.0) : 0;
+    if (counts(low + share * (high - low))) keep(best_, met.when, met.point, met.normal);
   }
 
   bool project(const Vector3& p, double extent, double& t) const {

@@ -13,16 +13,25 @@
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <BRep_Builder.hxx>
 #include <GC_MakeArcOfCircle.hxx>
+#include <GC_MakeSegment.hxx>
 #include <Geom2d_Line.hxx>
 #include <GeomAPI_PointsToBSplineSurface.hxx>
+#include <GeomConvert.hxx>
+#include <Geom_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <Geom_Circle.hxx>
+#include <Geom_RectangularTrimmedSurface.hxx>
+#include <Geom_SurfaceOfLinearExtrusion.hxx>
 #include <Geom_SurfaceOfRevolution.hxx>
 #include <Geom_TrimmedCurve.hxx>
+#include <TColStd_Array1OfInteger.hxx>
+#include <TColStd_Array1OfReal.hxx>
+#include <TColgp_Array1OfPnt.hxx>
 #include <TColgp_Array2OfPnt.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Face.hxx>
 
+#include "oracle.hpp"
 #include "simulation/cad_solid.hpp"
 #include "simulation/face_mesh.hpp"
 #include "worlds.hpp"
@@ -66,6 +75,86 @@ TEST(LooseLines, OfAFileAreNothingToTouch) {
   const auto solid = readStep(folder / "part.step");
   ASSERT_TRUE(solid) << format(solid.error());
   expectLinesAreFree(**solid);
+}
+
+/// A cone about Z as a spline that closes: its tip at the origin, its rim `fall` below with radius 12; a disc if that
+/// is nothing.
+TopoDS_Shape splineCone(double fall) {
+  const Handle(Geom_TrimmedCurve) line = GC_MakeSegment(gp_Pnt(0, 0, 0), gp_Pnt(12, 0, -fall)).Value();
+  const Handle(Geom_BSplineSurface) spline = GeomConvert::SurfaceToBSplineSurface(
+      new Geom_RectangularTrimmedSurface(new Geom_SurfaceOfRevolution(line, gp::OZ()), 0, 2 * std::numbers::pi,
+                                         line->FirstParameter(), line->LastParameter()));
+  spline->SetUPeriodic();
+  return BRepBuilderAPI_MakeFace(spline, 1e-7).Shape();
+}
+
+/// Balls that touch a pole, or so near that the equations there have no single solution.
+TEST(Poles, OfSplinesThatCloseAreTouchedFromAnySide) {
+  std::mt19937_64 random(41);
+  for (const double fall : {0.0, 2.0, 9.0}) {
+    const auto solid = cadSolid(splineCone(fall));
+    ASSERT_TRUE(solid) << format(solid.error());
+    for (int i = 0; i < 60; ++i) {
+      const double ball = uniform(random, 0.5, 9), turn = uniform(random, -4, 4);
+      const double off = i % 3 == 0 ? 0 : std::pow(10, uniform(random, -17, -3));
+      const Vector3 place(off * std::cos(turn), off * std::sin(turn), 0);
+      Vector3 from = testing::randomDirection(random);
+      from.z() = std::abs(from.z()) + 0.3;
+      // Where the ball stands on the tip.
+      const Vector3 centre = place + Vector3(0, 0, ball);
+      const auto contact = (*solid)->firstContact(centre + 40 * from, centre - 0.3 * from, ball);
+      ASSERT_TRUE(contact) << i;
+      EXPECT_NEAR(contact->fraction * 40.3, 40, fall > 0 ? 1e-6 + 2 * off : 1e-7) << i << ": " << off << " off";
+    }
+  }
+}
+
+/// A bent sheet along Y whose spline need not be smooth in the middle, at X10, where it reaches to Y20 only.
+TopoDS_Shape cutSheet() {
+  TColgp_Array1OfPnt poles(1, 5);
+  const std::array<gp_Pnt, 5> places{{{0, 0, 0}, {5, 0, 2}, {10, 0, 3}, {15, 0, 4}, {20, 0, 3}}};
+  for (int i = 0; i < 5; ++i)
+    poles(i + 1) = places[static_cast<std::size_t>(i)];
+  TColStd_Array1OfReal knots(1, 3);
+  TColStd_Array1OfInteger multiplicities(1, 3);
+  for (int i = 1; i <= 3; ++i) {
+    knots(i) = i - 1;
+    multiplicities(i) = i == 2 ? 2 : 3;
+  }
+  const Handle(Geom_Surface) surface =
+      new Geom_SurfaceOfLinearExtrusion(new Geom_BSplineCurve(poles, knots, multiplicities, 2), gp::DY());
+  const std::array<gp_Pnt2d, 5> corners{{{0, 0}, {2, 0}, {2, 2}, {1, 20}, {0, 38}}};
+  BRepBuilderAPI_MakeWire wire;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const gp_Pnt2d from = corners[i], to = corners[(i + 1) % corners.size()];
+    wire.Add(
+        BRepBuilderAPI_MakeEdge(new Geom2d_Line(from, gp_Dir2d(gp_Vec2d(from, to))), surface, 0, from.Distance(to)));
+  }
+  const TopoDS_Face face = BRepBuilderAPI_MakeFace(surface, wire.Wire(), Standard_True);
+  BRepLib::BuildCurves3d(face);
+  return TopoDS_Shape(face);
+}
+
+/// Balls past the end of what is left of the line in the middle.
+TEST(Sheets, EndWhereTheirBordersCrossALineThatNeedNotBeSmooth) {
+  const auto solid = cadSolid(cutSheet());
+  ASSERT_TRUE(solid) << format(solid.error());
+  for (double y = 23; y < 45; y += 0.5) {
+    // The border is about 10 mm in X for 18 in Y.
+    EXPECT_FALSE((*solid)->firstContact({12, y, 40}, {12, y, -40}, 1)) << y;
+    EXPECT_FALSE((*solid)->firstContact({40, y, 3}, {11.2, y, 3}, 1)) << y;
+    const double far = (y - 20) * 10 / std::hypot(10, 18);
+    EXPECT_FALSE((*solid)->firstContact({14, y, 40}, {10, y, 2}, 0.8 * far)) << y;
+  }
+  std::mt19937_64 random(42);
+  const auto& sheet = dynamic_cast<const CadSolid&>(**solid);
+  testing::expectTrueContacts("sheet", sheet.shape(), sheet, random, 300);
+  for (double y = 1; y < 18; y += 0.5) {
+    const auto contact = (*solid)->firstContact({10, y, 40}, {10, y, -40}, 1);
+    ASSERT_TRUE(contact) << y;
+    // There it rises by one in five.
+    EXPECT_NEAR(contact->touchPoint.z(), 3 + (contact->touchPoint.x() - 10) / 5, 0.02) << y;
+  }
 }
 
 /// From within one of two bodies that touch, through the face that they share: the ball starts in material.
