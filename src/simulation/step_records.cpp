@@ -289,7 +289,7 @@ std::vector<std::size_t> StepRecords::referencesOf(const Entity& entity) const {
 }
 
 void StepRecords::dropAnnotations() {
-  constexpr std::string_view kDrawing = "DRAUGHTING_MODEL";
+  static constexpr std::string_view kDrawing = "DRAUGHTING_MODEL";
   constexpr std::array<std::string_view, 11> kAbout{"DRAUGHTING_MODEL_ITEM_ASSOCIATION",
                                                     "GEOMETRIC_ITEM_SPECIFIC_USAGE",
                                                     "ID_ATTRIBUTE",
