@@ -12,6 +12,10 @@
 #include <IGESGeom_CurveOnSurface.hxx>
 #include <IGESGeom_OffsetSurface.hxx>
 #include <IGESGeom_TrimmedSurface.hxx>
+#include <IGESToBRep_CurveAndSurface.hxx>
+#include <Interface_Check.hxx>
+#include <Interface_InterfaceModel.hxx>
+#include <Interface_ReportEntity.hxx>
 #include <StepGeom_Axis2Placement3d.hxx>
 #include <StepGeom_CartesianPoint.hxx>
 #include <StepGeom_CartesianTransformationOperator3d.hxx>
@@ -35,10 +39,10 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
-#include <XSControl_Reader.hxx>
-#include <XSControl_WorkSession.hxx>
+#include <Transfer_TransientProcess.hxx>
 #include <cmath>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace probewright::simulation {
@@ -59,6 +63,13 @@ bool isLine(Handle(StepGeom_Curve) curve) {
   while (const auto trimmed = Handle(StepGeom_TrimmedCurve)::DownCast(curve))
     curve = trimmed->BasisCurve();
   return !curve.IsNull() && curve->IsKind(STANDARD_TYPE(StepGeom_Line));
+}
+
+bool lacksOnlyTexts(const Interface_Check& check) {
+  for (int i = 1; i <= check.NbFails(); ++i) {
+    if (!std::string_view(check.CFail(i)).ends_with("not a quoted String")) return false;
+  }
+  return check.NbFails() > 0;
 }
 
 Handle(TCollection_HAsciiString) noName() { return new TCollection_HAsciiString(""); }
@@ -108,6 +119,12 @@ Handle(StepGeom_Surface) plainOffset(const StepGeom_OffsetSurface& offset) {
 }
 
 }  // namespace
+
+void acceptMissingTexts(const Handle(Interface_InterfaceModel) & model) {
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    if (model->IsErrorEntity(i) && lacksOnlyTexts(*model->ReportEntity(i)->Check())) model->ClearReportEntity(i);
+  }
+}
 
 Handle(Standard_Transient) misreadPlacement(const Handle(Interface_InterfaceModel) & model) {
   for (int i = 1; i <= model->NbEntities(); ++i) {
@@ -159,6 +176,18 @@ void takePlainOffsets(const Handle(Interface_InterfaceModel) & model) {
 
 namespace {
 
+/// The shape of a single entity, made apart from the part: what the part's reader has once made it takes again, a
+/// surface with its parameters in another scale than its borders in the file.
+TopoDS_Shape lookedAt(const Handle(IGESData_IGESModel) & model, const Handle(IGESData_IGESEntity) & entity) {
+  IGESToBRep_CurveAndSurface tool;
+  tool.SetModel(model);
+  const Handle(Transfer_TransientProcess) process = new Transfer_TransientProcess;
+  process->SetModel(model);
+  tool.SetTransferProcess(process);
+  tool.SetEpsGeom(model->GlobalSection().Resolution() * tool.GetUnitFactor());
+  return tool.TransferGeometry(entity);
+}
+
 /// The curves in space of the borders of faces on a surface.
 std::vector<Handle(IGESData_IGESEntity)> bordersOn(const Handle(Interface_InterfaceModel) & model,
                                                    const Handle(IGESData_IGESEntity) & surface) {
@@ -185,13 +214,13 @@ std::vector<Handle(IGESData_IGESEntity)> bordersOn(const Handle(Interface_Interf
 
 /// On which side of its basis an offset surface lies by the borders of faces on it: along the normal 1, against it -1;
 /// nothing where they do not tell.
-std::optional<int> sideOfBorders(XSControl_Reader& reader, const Handle(IGESGeom_OffsetSurface) & offset,
-                                 const Handle(Geom_Surface) & basis) {
+std::optional<int> sideOfBorders(const Handle(IGESData_IGESModel) & model,
+                                 const Handle(IGESGeom_OffsetSurface) & offset, const Handle(Geom_Surface) & basis) {
   int along = 0, against = 0;
-  for (const Handle(IGESData_IGESEntity) & border : bordersOn(reader.WS()->Model(), offset)) {
-    reader.ClearShapes();
-    if (!reader.TransferEntity(border)) continue;
-    for (TopExp_Explorer edges(reader.OneShape(), TopAbs_EDGE); edges.More(); edges.Next()) {
+  for (const Handle(IGESData_IGESEntity) & border : bordersOn(model, offset)) {
+    const TopoDS_Shape shape = lookedAt(model, border);
+    if (shape.IsNull()) continue;
+    for (TopExp_Explorer edges(shape, TopAbs_EDGE); edges.More(); edges.Next()) {
       double first = 0, last = 0;
       const Handle(Geom_Curve) curve = BRep_Tool::Curve(TopoDS::Edge(edges.Current()), first, last);
       if (curve.IsNull()) continue;
@@ -217,18 +246,17 @@ std::optional<int> sideOfBorders(XSControl_Reader& reader, const Handle(IGESGeom
 
 }  // namespace
 
-void turnOffsets(XSControl_Reader& reader) {
-  const Handle(Interface_InterfaceModel) model = reader.WS()->Model();
-  for (int i = 1; i <= model->NbEntities(); ++i) {
+void turnOffsets(const Handle(Interface_InterfaceModel) & entities) {
+  const auto model = Handle(IGESData_IGESModel)::DownCast(entities);
+  for (int i = 1; !model.IsNull() && i <= model->NbEntities(); ++i) {
     const auto offset = Handle(IGESGeom_OffsetSurface)::DownCast(model->Value(i));
     if (offset.IsNull() || model->IsErrorEntity(i) || offset->Surface().IsNull()) continue;
-    reader.ClearShapes();
-    if (!reader.TransferEntity(offset->Surface())) continue;
-    const TopoDS_Shape basis = reader.OneShape();
+    const TopoDS_Shape basis = lookedAt(model, offset->Surface());
+    if (basis.IsNull()) continue;
     for (TopExp_Explorer faces(basis, TopAbs_FACE); faces.More(); faces.Next()) {
       const BRepAdaptor_Surface surface(TopoDS::Face(faces.Current()));
       // Some systems write the vector of another place; what runs on the surface tells better.
-      if (const auto side = sideOfBorders(reader, offset, BRep_Tool::Surface(TopoDS::Face(faces.Current())))) {
+      if (const auto side = sideOfBorders(model, offset, BRep_Tool::Surface(TopoDS::Face(faces.Current())))) {
         if (*side * offset->Distance() < 0)
           offset->Init(offset->OffsetIndicator().XYZ(), -offset->Distance(), offset->Surface());
         break;
@@ -242,7 +270,6 @@ void turnOffsets(XSControl_Reader& reader) {
       break;
     }
   }
-  reader.ClearShapes();
 }
 
 double scaleOf(const Handle(Interface_InterfaceModel) & model) {

@@ -119,14 +119,6 @@ bool isNearlyStructure(std::string_view type) {
   });
 }
 
-/// True if nothing is wrong with an entity but names and descriptions, which some systems leave out.
-bool lacksOnlyTexts(const Interface_Check& check) {
-  for (int i = 1; i <= check.NbFails(); ++i) {
-    if (!std::string_view(check.CFail(i)).ends_with("not a quoted String")) return false;
-  }
-  return true;
-}
-
 /// Names what is wrong with entities before anything is made of them.
 void nameFaults(const Handle(Interface_InterfaceModel) & model, const ChildVoice& voice) {
   int told = 0;
@@ -135,7 +127,7 @@ void nameFaults(const Handle(Interface_InterfaceModel) & model, const ChildVoice
     const bool strange = !unknown.IsNull() && isNearlyStructure(unknown->StepType());
     if (!strange && !model->IsReportEntity(i)) continue;
     const Handle(Interface_Check) check = model->Check(i, Standard_True);
-    const bool structure = strange || (isStructure(model, i) && !lacksOnlyTexts(*check));
+    const bool structure = strange || isStructure(model, i);
     if (!strange && (check->NbFails() == 0 || (!structure && !isGeometry(model, i)))) continue;
     const char* reason = strange ? "its type is not known" : check->CFail(1);
     voice.say(fmt::format("{} {} {}", structure ? "misplaced" : "suspect", labelOf(model, model->Value(i)), reason));
@@ -168,7 +160,10 @@ std::unique_ptr<XSControl_Reader> load(const TransferOrder& order, const ChildVo
     status = reader->ReadFile(order.file.c_str());
   }
   const Handle(Interface_InterfaceModel) model = reader->WS()->Model();
-  if (!model.IsNull()) nameFaults(model, voice);
+  if (!model.IsNull()) {
+    acceptMissingTexts(model);
+    nameFaults(model, voice);
+  }
   if (status == IFSelect_RetDone) {
     if (const auto placement = misreadPlacement(model); !placement.IsNull()) {
       voice.say(
@@ -212,7 +207,7 @@ TopoDS_Shape build(XSControl_Reader& reader, const ChildVoice& voice) {
   voice.say("stage building the part");
   const Handle(Interface_InterfaceModel) model = reader.WS()->Model();
   takePlainOffsets(model);
-  turnOffsets(reader);
+  turnOffsets(model);
   const int roots = reader.NbRootsForTransfer();
   for (int i = 1; i <= roots; ++i) {
     voice.say("at " + labelOf(model, reader.RootForTransfer(i)));

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <regex>
+
 #include "meant.hpp"
 #include "written_step.hpp"
 
@@ -84,6 +86,28 @@ TEST(DamagedStructure, OfNamesAloneIsNotWorthAWord) {
       text.replace(at + type.size(), names.size(), none);
   }
   EXPECT_EQ(saidOf(text), "");
+}
+
+/// All texts of a file left out.
+std::string withoutTexts(const std::string& text) {
+  const std::size_t data = text.find("DATA;");
+  return text.substr(0, data) + std::regex_replace(text.substr(data), std::regex("'[^']*'"), "$$");
+}
+
+TEST(DamagedStructure, OfAllTextsLeavesThePartAsItIs) {
+  const std::string text = withoutTexts(assembly());
+  EXPECT_EQ(text.find('\'', text.find("DATA;")), std::string::npos);
+  EXPECT_EQ(saidOf(text), "");
+}
+
+/// What must be refused or corrected is not passed over because it has no name.
+TEST(DamagedStructure, OfTextsHidesNoOtherMistake) {
+  std::string text = assembly();
+  const std::string plane = "PLANE('',#";
+  const std::size_t at = text.find(plane);
+  ASSERT_NE(at, std::string::npos);
+  text[at + plane.size() - 1] = 'x';
+  EXPECT_NE(saidOf(withoutTexts(text)), "");
 }
 
 /// A patch on a cylinder whose border also runs once round it, which no face can have as its only border.

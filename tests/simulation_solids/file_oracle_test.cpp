@@ -10,6 +10,7 @@
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
+#include <Geom2d_Curve.hxx>
 #include <GeomConvert.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <Geom_ElementarySurface.hxx>
@@ -24,10 +25,13 @@
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
 #include <Standard_Failure.hxx>
+#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
+#include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <TopoDS_Vertex.hxx>
 
 #include "oracle.hpp"
 #include "simulation/cad_kinks.hpp"
@@ -84,6 +88,17 @@ bool write(const TopoDS_Shape& shape, const FileKind& kind, const std::filesyste
   return written;
 }
 
+/// False where OpenCASCADE has written a file without faces, as it does of a torus without edges.
+bool holdsFaces(const FileKind& kind, const std::filesystem::path& path) {
+  if (kind.isIges()) return true;
+  std::ifstream file(path);
+  std::string line;
+  while (std::getline(file, line)) {
+    if (line.find("FACE") != std::string::npos) return true;
+  }
+  return false;
+}
+
 /// The faces of a shape without the bodies that they bound.
 TopoDS_Shape facesOf(const TopoDS_Shape& shape) {
   BRep_Builder builder;
@@ -112,7 +127,30 @@ TopoDS_Shape reversed(const TopoDS_Shape& face, bool u, bool v) {
   return BRepBuilderAPI_MakeFace(surface, u0, u1, v0, v1, 1e-7).Shape();
 }
 
-/// The face with two round holes.
+/// True if the edges of each face run round its surface as often one way as the other, and none from one vertex to
+/// another at the same place, which says nothing or all around. Where a surface meets itself, OpenCASCADE cuts faces
+/// that nothing ends on one side; where its seam is two edges, such edges.
+bool isPlain(const TopoDS_Shape& shape) {
+  constexpr double kSmall = 1e-3;
+  for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next()) {
+    const TopoDS_Face face = TopoDS::Face(faces.Current().Oriented(TopAbs_FORWARD));
+    gp_XY way(0, 0);
+    for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next()) {
+      double first = 0, last = 0;
+      const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(TopoDS::Edge(edges.Current()), face, first, last);
+      if (curve.IsNull()) return false;
+      const gp_XY part = curve->Value(last).XY() - curve->Value(first).XY();
+      way += edges.Current().Orientation() == TopAbs_REVERSED ? -part : part;
+      TopoDS_Vertex from, to;
+      TopExp::Vertices(TopoDS::Edge(edges.Current()), from, to);
+      if (!from.IsSame(to) && BRep_Tool::Pnt(from).Distance(BRep_Tool::Pnt(to)) < kSmall) return false;
+    }
+    if (way.Modulus() > kSmall) return false;
+  }
+  return true;
+}
+
+/// The face with two round holes; as it is where OpenCASCADE cannot cut them.
 TopoDS_Shape perforated(const TopoDS_Shape& shape, std::mt19937_64& random) {
   const TopoDS_Face face = TopoDS::Face(shape);
   double u0 = 0, u1 = 0, v0 = 0, v1 = 0;
@@ -133,7 +171,7 @@ TopoDS_Shape perforated(const TopoDS_Shape& shape, std::mt19937_64& random) {
     left = BRepAlgoAPI_Cut(left, BRepPrimAPI_MakeCylinder(axes, uniform(random, 0.03, 0.06) * size, 0.1 * size).Shape())
                .Shape();
   }
-  return left;
+  return isPlain(left) ? left : shape;
 }
 
 /// A tube closed in both directions as a periodic rational spline, its seams anywhere, a part of it across them.
@@ -263,7 +301,7 @@ void judge(const NamedShape& named, const FileKind& kind, const std::string& rou
   if (cannotBeWritten(named.shape, kind)) return;
   const ScratchFolder folder;
   const std::filesystem::path path = folder / (kind.isIges() ? "part.igs" : "part.step");
-  if (!write(named.shape, kind, path)) return;  // OpenCASCADE cannot write everything
+  if (!write(named.shape, kind, path) || !holdsFaces(kind, path)) return;  // OpenCASCADE cannot write everything
   const auto solid = kind.isIges() ? readIges(path) : readStep(path);
   const int objections = failures();
   if (solid) {
@@ -273,7 +311,9 @@ void judge(const NamedShape& named, const FileKind& kind, const std::string& rou
     if (!complaints.empty() && hasLemons(read)) return;
     EXPECT_EQ(complaints, "") << name;
     const bool bodies = read.model().closedBodies > 0;
-    expectTrueContacts(name, withoutKinks(bodies ? named.shape : facesOf(named.shape)), read, random, ways);
+    // Numbers of IGES files that OpenCASCADE writes have nine digits.
+    const double doubt = kind.isIges() ? 1e-8 * (read.bounds().maximum - read.bounds().minimum).norm() : 0;
+    expectTrueContacts(name, withoutKinks(bodies ? named.shape : facesOf(named.shape)), read, random, ways, doubt);
   } else {
     ADD_FAILURE() << name << ": " << format(solid.error());
   }
@@ -287,22 +327,21 @@ void judge(const NamedShape& named, const FileKind& kind, const std::string& rou
 
 TEST(FileOracle, PartsAreMetWhereTheyWereDrawnWhateverFileTheyComeFrom) {
   const std::vector<FileKind> kinds = fileKinds();
-  const char* from = std::getenv("PROBEWRIGHT_CAMPAIGN_FROM");
-  const int first = from != nullptr ? std::atoi(from) : 0;
+  const int first = campaignStart();
   for (int round = first; round < first + campaignFactor(); ++round) {
     std::mt19937_64 random(static_cast<std::uint64_t>(1000 + round));
     std::size_t k = static_cast<std::size_t>(round);
     for (const NamedShape& named : shapesOf(random))
-      judge(named, kinds[k++ % kinds.size()], fmt::format("round {}: ", round), random, 10);
+      judge(named, kinds[k++ % kinds.size()], fmt::format("round {}: ", round), random, waysInCampaign(10));
   }
 }
 
 /// A hole whose border runs along a kink, which was closed; an offset that lay on the wrong side of its surface; a
-/// spline closed both ways that could not be tessellated.
+/// spline closed both ways that could not be tessellated; an offset whose borders got another scale in inches.
 TEST(FileOracle, WhatWasReadWronglyOnceIsMetWhereItWasDrawn) {
   const std::vector<FileKind> kinds = fileKinds();
   for (const auto& [round, wanted] : {std::pair(2, "wrapped spline"), std::pair(3, "kinked extrusion, perforated"),
-                                      std::pair(10, "offset torus, reversed")}) {
+                                      std::pair(10, "offset torus, reversed"), std::pair(10001, "offset cylinder")}) {
     std::mt19937_64 random(static_cast<std::uint64_t>(1000 + round));
     const std::vector<NamedShape> shapes = shapesOf(random);
     int found = 0;

@@ -93,7 +93,7 @@ double tessellate(const TopoDS_Shape& shape, double deflection) {
 
 }  // namespace
 
-Oracle::Oracle(const TopoDS_Shape& shape) : shape_(BRepBuilderAPI_Copy(shape).Shape()) {
+Oracle::Oracle(const TopoDS_Shape& shape, double doubt) : shape_(BRepBuilderAPI_Copy(shape).Shape()) {
   Bnd_Box all;
   BRepBndLib::Add(shape_, all);
   const double size = all.CornerMin().Distance(all.CornerMax());
@@ -143,7 +143,7 @@ Oracle::Oracle(const TopoDS_Shape& shape) : shape_(BRepBuilderAPI_Copy(shape).Sh
   tolerance_ = 2 * std::max(deviation, deflection);
   // Edges and surfaces of a shape meet to within its tolerance only: which of them is met decides about as much.
   constexpr double kPromised = 1e-6, kMostDoubt = 1e-5;
-  precision_ = kPromised + std::min(kMostDoubt, BRep_Tool::MaxTolerance(shape_, TopAbs_EDGE));
+  precision_ = kPromised + doubt + std::min(kMostDoubt, BRep_Tool::MaxTolerance(shape_, TopAbs_EDGE));
   closed_ = isClosed(mesh) && !mesh.triangles.empty();
   skin_ = !TopExp_Explorer(shape_, TopAbs_SOLID).More();
   for (const Vector3& place : places_) {
@@ -246,11 +246,13 @@ Oracle::Way Oracle::randomWay(std::mt19937_64& random) const {
 }
 
 int expectTrueContacts(const std::string& name, const TopoDS_Shape& shape, const Solid& solid, std::mt19937_64& random,
-                       int count) {
-  const Oracle oracle(shape);
+                       int count, double doubt) {
+  const Oracle oracle(shape, doubt);
   int contacts = 0;
   int objections = 0;
+  int sent = 0;
   for (int i = 0; i < count && objections < 3; ++i) {
+    ++sent;
     const Oracle::Way way = oracle.randomWay(random);
     const auto contact = solid.firstContact(way.from, way.to, way.radius);
     if (contact) ++contacts;
@@ -261,12 +263,25 @@ int expectTrueContacts(const std::string& name, const TopoDS_Shape& shape, const
                   << " radius " << way.radius << ": the ball " << objection << " (tolerance " << oracle.tolerance()
                   << ")";
   }
+  static int parts = 0, ways = 0;
+  ++parts, ways += sent;
+  if (campaignFactor() > 1 && parts % 100 == 0) fmt::print("{} parts, {} ways so far\n", parts, ways);
   return contacts;
 }
 
 int campaignFactor() {
   const char* factor = std::getenv("PROBEWRIGHT_CAMPAIGN");
   return factor != nullptr ? std::max(1, std::atoi(factor)) : 1;
+}
+
+int campaignStart() {
+  const char* from = std::getenv("PROBEWRIGHT_CAMPAIGN_FROM");
+  return from != nullptr ? std::atoi(from) : 0;
+}
+
+int waysInCampaign(int usual) {
+  constexpr int kMore = 3;
+  return campaignFactor() > 1 ? kMore * usual : usual;
 }
 
 }  // namespace probewright::simulation::testing

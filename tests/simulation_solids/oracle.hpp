@@ -13,7 +13,8 @@ namespace probewright::simulation::testing {
 class Oracle {
 public:
   /// The shape must be the one that the solid was made of.
-  explicit Oracle(const TopoDS_Shape& shape);
+  /// `doubt`: how far the solid may be from it all the same, in mm.
+  explicit Oracle(const TopoDS_Shape& shape, double doubt = 0);
 
   /// What is wrong with the contact that a solid reports for a way; empty if nothing is. `exactly`: by OpenCASCADE's
   /// distance too, which takes milliseconds.
@@ -47,9 +48,15 @@ private:
 
 /// Sends `count` ways at a solid and names the first few on which it errs. Returns how many ended in a contact.
 int expectTrueContacts(const std::string& name, const TopoDS_Shape& shape, const Solid& solid, std::mt19937_64& random,
-                       int count);
+                       int count, double doubt = 0);
 
 /// The campaign's size: PROBEWRIGHT_CAMPAIGN, 1 if that is not set.
 int campaignFactor();
+
+/// Where the campaign's random worlds begin: PROBEWRIGHT_CAMPAIGN_FROM, 0 if that is not set.
+int campaignStart();
+
+/// Ways sent at one part: `usual`, more in a campaign, as making a part takes longer than many ways.
+int waysInCampaign(int usual);
 
 }  // namespace probewright::simulation::testing

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <regex>
+
 #include "meant.hpp"
 #include "oracle.hpp"
 #include "simulation/cad_solid.hpp"
@@ -225,12 +227,18 @@ TEST(WrittenParts, MappedAreMetWhereTheyAre) {
 TEST(WrittenParts, MappedScaledOrMirroredAreRefusedRatherThanPutElsewhere) {
   const ScratchFolder folder;
   for (const auto& [scale, mirrored] : {std::pair(2.0, false), std::pair(0.5, true), std::pair(1.0, true)}) {
-    const auto solid =
-        readStep(folder.write("part.step", mapped(Pose::Identity(), translation({10, 0, 0}), scale, mirrored)));
-    ASSERT_FALSE(solid);
-    EXPECT_GT(solid.error().place.line, 0U);
-    EXPECT_THAT(format(solid.error()), AllOf(HasSubstr("CARTESIAN_TRANSFORMATION_OPERATOR_3D: it mirrors or scales"),
-                                             HasSubstr("bodies of their own")));
+    const std::string text = mapped(Pose::Identity(), translation({10, 0, 0}), scale, mirrored);
+    // Some systems leave names out.
+    const std::string nameless =
+        std::regex_replace(text, std::regex("OPERATOR_3D\\('[^']*','[^']*'"), "OPERATOR_3D($$,$$");
+    EXPECT_NE(nameless, text);
+    for (const std::string& bytes : {text, nameless}) {
+      const auto solid = readStep(folder.write("part.step", bytes));
+      ASSERT_FALSE(solid);
+      EXPECT_GT(solid.error().place.line, 0U);
+      EXPECT_THAT(format(solid.error()), AllOf(HasSubstr("CARTESIAN_TRANSFORMATION_OPERATOR_3D: it mirrors or scales"),
+                                               HasSubstr("bodies of their own")));
+    }
   }
 }
 
