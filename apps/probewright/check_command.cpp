@@ -47,7 +47,8 @@ int checkOnce(const CheckArguments& arguments) {
     const bool piped = path == "-";
     std::string text;
     Diagnostics found = session::checkProgram(piped ? std::filesystem::path(kStandardInput) : path, arguments.control,
-                                              arguments.skipLevels, &text, setup ? &setup->beliefs : nullptr);
+                                              arguments.skipLevels, &text, setup ? &setup->beliefs : nullptr,
+                                              session::knownFamilies(), setup ? &setup->world.truth.machine : nullptr);
     const language::Encoding encoding = language::detectEncoding(text);
     if (piped) {
       nameStandardInput(found);

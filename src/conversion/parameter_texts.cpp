@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "cycles/catalogue.hpp"
+
 namespace probewright::conversion {
 
 namespace {
@@ -397,6 +399,42 @@ std::string_view parameterText(int cycle, int parameter, DialogLanguage language
     if (each.cycle == cycle && each.parameter == parameter) return wordOf(each.words, language);
   const auto found = std::ranges::find(texts, parameter, &Text::parameter);
   return found == std::end(texts) ? std::string_view("PARAMETER") : wordOf(found->words, language);
+}
+
+std::string_view parameterText(int cycle, int parameter, control::ControlKind control) {
+  if (control == control::ControlKind::iTNC530) {
+    if (parameter == 339) return "DATUM NUMBER";
+    if (parameter == 331 || parameter == 332 || parameter == 333 || parameter == 405) return "DATUM";
+  }
+  if (parameter == 339) return "PRESET NUMBER";
+  return parameterText(cycle, parameter);
+}
+
+std::string_view cycleTitle(int cycle, control::ControlKind control) {
+  struct Title {
+    int cycle;
+    std::string_view text;
+  };
+  // As the manual of the iTNC 530 prints them, those of 414 and 415 too.
+  static constexpr std::array<Title, 13> titles = {{{247, "DATUM SETTING"},
+                                                    {403, "ROT IN C AXIS"},
+                                                    {404, "BASIC ROTATION"},
+                                                    {410, "DATUM INSIDE RECTAN."},
+                                                    {411, "DATUM OUTS. RECTAN."},
+                                                    {412, "DATUM INSIDE CIRCLE"},
+                                                    {413, "DATUM OUTSIDE CIRCLE"},
+                                                    {414, "DATUM INSIDE CORNER"},
+                                                    {415, "DATUM OUTSIDE CORNER"},
+                                                    {416, "DATUM CIRCLE CENTER"},
+                                                    {417, "DATUM IN TS AXIS"},
+                                                    {418, "DATUM FROM 4 HOLES"},
+                                                    {419, "DATUM IN ONE AXIS"}}};
+  if (control == control::ControlKind::iTNC530) {
+    if (const auto found = std::ranges::find(titles, cycle, &Title::cycle); found != titles.end()) return found->text;
+  }
+  if (cycle == 247) return "PRESETTING";
+  const cycles::CycleDefinition* definition = cycles::heidenhainCycle(cycle);
+  return definition == nullptr ? std::string_view() : definition->title;
 }
 
 }  // namespace probewright::conversion

@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "control/control_kind.hpp"
 #include "control/dialog_language.hpp"
 
 namespace probewright::conversion {
@@ -12,5 +13,10 @@ namespace probewright::conversion {
 /// parameters without a text of their own the one of cycles in general.
 std::string_view parameterText(int cycle, int parameter,
                                control::DialogLanguage language = control::DialogLanguage::English);
+
+/// The same in English as an iTNC 530 writes it, and the title of a cycle there: its datum is what newer controls call
+/// a preset.
+std::string_view parameterText(int cycle, int parameter, control::ControlKind control);
+std::string_view cycleTitle(int cycle, control::ControlKind control);
 
 }  // namespace probewright::conversion

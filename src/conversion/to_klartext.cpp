@@ -1,5 +1,6 @@
 #include "conversion/to_klartext.hpp"
 
+#include "conversion/parameter_texts.hpp"
 #include "conversion/sinumerik_formulas.hpp"
 #include "cycles/catalogue.hpp"
 
@@ -272,7 +273,8 @@ void ToKlartext::modal(const Block& block, const Modal& modal) {
           "cycle 247 cancels a rotation, and which one is in effect is known only when the program runs",
           "program ROT before this block");
     }
-    writeWhole({"CYCL DEF 247 PRESETTING ~", fmt::format("    Q339=+{} ;PRESET NUMBER", row)});
+    writeWhole({fmt::format("CYCL DEF 247 {} ~", cycleTitle(247, control_)),
+                fmt::format("    Q339=+{} ;{}", row, parameterText(247, 339, control_))});
     restoreFrame();
     return;
   }

@@ -113,20 +113,24 @@ void ToKlartext::requireReach(const Block& block, const MeasuringTask& task) {
   const double length = reach.number() / millimetre_;
   if (length <= std::max(probe_.travel, listedReach_) + 1e-6) return;
   listedReach_ = length;
-  out_.list(block,
-            fmt::format("this cycle looks for the surface along {} mm, a touch probe with DIST = {} along that only",
-                        numberText(std::ceil(length * 1000 - 1e-3) / 1000), numberText(probe_.travel)),
-            "enter as much as DIST in the touch probe table, and tell it by --dist");
+  out_.list(
+      block,
+      fmt::format(
+          "this cycle looks for the surface along {} mm, but a touch probe with DIST = {} looks along its DIST only",
+          numberText(std::ceil(length * 1000 - 1e-3) / 1000), numberText(probe_.travel)),
+      "enter at least this path as DIST in the touch probe table, and give the same number to --dist");
 }
 
 std::string ToKlartext::writeTask(const MeasuringTask& task) {
   const Call call = heidenhainCall(task, control_, probe_);
   const cycles::CycleDefinition* definition = cycles::heidenhainCycle(std::stoi(call.cycle));
-  std::vector<std::string> lines = {fmt::format("TCH PROBE {} {} ~", call.cycle, definition->title)};
+  std::vector<std::string> lines = {
+      fmt::format("TCH PROBE {} {} ~", call.cycle, cycleTitle(std::stoi(call.cycle), control_))};
   for (const cycles::Parameter& parameter : definition->parameters) {
     const std::string text = call.text(parameter.name);
     if (!call.has(parameter.name) && text.empty()) continue;
-    const std::string_view meaning = parameterText(std::stoi(call.cycle), static_cast<int>(parameter.address));
+    const std::string_view meaning =
+        parameterText(std::stoi(call.cycle), static_cast<int>(parameter.address), control_);
     lines.push_back(fmt::format(
         "    {}={} ;{} ~", parameter.name,
         text.empty() ? formulas_.value(call.number(parameter.name)) : fmt::format("\"{}\"", text), meaning));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "conversion/parameter_texts.hpp"
 #include "conversion/sinumerik_formulas.hpp"
 #include "conversion/to_klartext.hpp"
 
@@ -71,7 +72,7 @@ void ToKlartext::assignFrameComponent(const Block& block, const Assign& assign) 
     if (row == 0) rowZeroIsDue_ = false;
     const std::string angle = formulas_.value(value), rowText = formulas_.value(row);
     cancelFrame();  // touch probe cycles permit none
-    std::vector<std::string> lines = {"TCH PROBE 404 SET BASIC ROTATION ~",
+    std::vector<std::string> lines = {fmt::format("TCH PROBE 404 {} ~", cycleTitle(404, control_)),
                                       fmt::format("    Q307={} ;PRESET ROTATION ANG.{}", angle, ofTables ? " ~" : "")};
     if (ofTables) lines.push_back(fmt::format("    Q305={} ;NUMBER IN TABLE", rowText));
     writeWhole(std::move(lines));

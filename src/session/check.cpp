@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/file.hpp"
+#include "base/text.hpp"
 #include "session/setup_check.hpp"
 #include "session/source.hpp"
 
@@ -11,7 +12,7 @@ namespace probewright::session {
 
 Diagnostics checkProgram(const std::filesystem::path& path, std::optional<control::ControlKind> control,
                          std::bitset<10> skipLevels, std::string* read, const control::Beliefs* beliefs,
-                         const ControlFamilies& families) {
+                         const ControlFamilies& families, const machine::MachineDescription* machine) {
   const Result<std::string> text = readFile(path);
   if (!text) return {text.error()};
   if (read != nullptr) *read = *text;
@@ -26,7 +27,11 @@ Diagnostics checkProgram(const std::filesystem::path& path, std::optional<contro
       {.program = **program, .control = *kind, .path = path, .beliefs = beliefs, .skipLevels = skipLevels});
   if (beliefs != nullptr && family.inventory != nullptr) {
     const Inventory inventory = family.inventory(*beliefs, *kind, found);
-    const Diagnostics more = checkAgainstSetup(**program, inventory, skipLevels);
+    std::vector<std::string> axes;
+    if (machine != nullptr)
+      for (const machine::Axis& axis : machine->axes)
+        axes.push_back(upperCase(axis.name));
+    const Diagnostics more = checkAgainstSetup(**program, inventory, skipLevels, std::move(axes));
     found.insert(found.end(), more.begin(), more.end());
     std::ranges::stable_sort(
         found, {}, [&](const Diagnostic& each) { return each.place.file == path.string() ? each.place.line : 0; });

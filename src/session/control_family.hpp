@@ -82,6 +82,11 @@ struct Inventory {
   /// 0: there is none.
   std::uint32_t monitoredTool = 0;
   std::string_view cycleWord;
+  /// The place of the argument by which a call of `cycle` names a tool that it corrects for certain; `number` gives an
+  /// argument by its name as far as it is written as a number. Empty: calls name no tools.
+  std::function<std::optional<std::uint32_t>(std::string_view cycle,
+                                             const std::function<std::optional<double>(std::uint32_t place)>& number)>
+      correctedTool;
 };
 
 /// What a control is to run. `beliefs` and `options` outlive the run.

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "base/number_text.hpp"
 #include "language/block.hpp"
@@ -25,8 +26,8 @@ std::string shown(const NamedItem& item) { return item.name.empty() ? formatShor
 
 class SetupChecker {
 public:
-  SetupChecker(Program& program, const Inventory& inventory, std::bitset<10> skipLevels)
-      : program_(program), inventory_(inventory), skipLevels_(skipLevels) {}
+  SetupChecker(Program& program, const Inventory& inventory, std::bitset<10> skipLevels, std::vector<std::string> axes)
+      : program_(program), inventory_(inventory), skipLevels_(skipLevels), axes_(std::move(axes)) {}
 
   Diagnostics run() {
     Diagnostics unread;  // mistakes of blocks are told by others
@@ -40,6 +41,7 @@ public:
     }
     // A program that makes tools has those that it makes.
     if (makesTools_) std::erase_if(found_, [](const Diagnostic& each) { return each.code == "tool"; });
+    if (spaceAngles_) std::erase_if(found_, [](const Diagnostic& each) { return each.code == "axis"; });
     for (Diagnostic& each : found_)
       each.code.clear();
     return std::move(found_);
@@ -112,6 +114,44 @@ private:
       if (tool && (!tool->name.empty() || tool->number != 0)) needTool(*tool);
     }
   }
+  /// A measuring cycle of a SINUMERIK that corrects a tool; it may be named by its number: "3".
+  void look(const CallProgram& call) {
+    if (!inventory_.correctedTool || call.nameValue.present()) return;
+    const auto words = wordsOf(call.arguments);
+    const auto argument = [&](std::uint32_t place) {
+      const auto found = std::ranges::find(words, place, &Word::address);
+      return found == words.end() ? Operand{} : found->value;
+    };
+    const auto number = [&](std::uint32_t place) -> std::optional<double> {
+      const Operand value = argument(place);
+      return value.present() && value.isLiteral() ? std::optional(value.number) : std::nullopt;
+    };
+    const auto place = inventory_.correctedTool(block_.at(call.name), number);
+    if (!place) return;
+    const auto tool = named(argument(*place));
+    if (!tool || tool->name.empty() || inventory_.hasTool(*tool)) return;
+    if (const auto row = parseInteger(tool->name); row && inventory_.hasTool({{}, static_cast<double>(*row)})) return;
+    needTool(*tool);
+  }
+  /// Axes that the machine lacks. Under AXIS SPAT the letters A, B and C are angles of the plane.
+  void look(const Modal& modal) {
+    spaceAngles_ = spaceAngles_ || (block_.at(modal.name) == "FUNCTION TCPM" &&
+                                    std::ranges::any_of(wordsOf(modal.words), [](const Word& word) {
+                                      return word.address == addressOf("AXIS") && word.value.number == 0;
+                                    }));
+  }
+  void look(const Move& move) {
+    if (axes_.empty() || move.kind == MoveKind::SetCentre) return;
+    for (const Word& word : wordsOf(move.words)) {
+      const bool letter = word.address < 256 &&
+                          std::string_view("XYZABCUVW").find(static_cast<char>(word.address)) != std::string_view::npos;
+      const std::string name = addressName(word.address);
+      if (!letter || std::ranges::find(axes_, name) != axes_.end()) continue;
+      report({}, fmt::format("the machine of the setup has no axis {}", name),
+             fmt::format("take {} away, or choose a machine that has it", name), "axis");
+      found_.back().place.column = word.column > 0 ? word.column : found_.back().place.column;
+    }
+  }
   void look(const Assign& assign) {
     const VariableRef& target = block_.variables[static_cast<std::size_t>(assign.variable)];
     makesTools_ = makesTools_ || (target.space == VariableSpace::System && block_.at(target.name).starts_with("$TC_"));
@@ -128,13 +168,16 @@ private:
   std::bitset<10> skipLevels_;
   Block block_;
   Diagnostics found_;
+  std::vector<std::string> axes_;  ///< of the machine, in capitals; empty: not known
   bool makesTools_ = false;
+  bool spaceAngles_ = false;
 };
 
 }  // namespace
 
-Diagnostics checkAgainstSetup(Program& program, const Inventory& inventory, std::bitset<10> skipLevels) {
-  return SetupChecker(program, inventory, skipLevels).run();
+Diagnostics checkAgainstSetup(Program& program, const Inventory& inventory, std::bitset<10> skipLevels,
+                              std::vector<std::string> axes) {
+  return SetupChecker(program, inventory, skipLevels, std::move(axes)).run();
 }
 
 }  // namespace probewright::session

@@ -3,6 +3,7 @@
 #include <bitset>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "base/diagnostic.hpp"
 #include "language/program.hpp"
@@ -11,8 +12,10 @@
 namespace probewright::session {
 
 /// What a program names and the control does not have: tools that are called or corrected, rows of the preset table
-/// that are activated. Only what the text says; names and numbers that the run computes are left to it.
-Diagnostics checkAgainstSetup(language::Program& program, const Inventory& inventory, std::bitset<10> skipLevels = {});
+/// that are activated, axes that are moved. Only what the text says; names and numbers that the run computes are left
+/// to it. `axes`: of the machine, in capitals; empty: not known.
+Diagnostics checkAgainstSetup(language::Program& program, const Inventory& inventory, std::bitset<10> skipLevels = {},
+                              std::vector<std::string> axes = {});
 
 /// "the setup has 1 PROBE, 2": the first of them.
 class Listing {

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -158,6 +159,29 @@ TEST(Check, ComparesTheFirstBlockWithTheLast) {
   EXPECT_EQ(said("a.h", "0  BEGIN  PGM a MM ; one\n1 END PGM A  mm\n"), "");
   EXPECT_EQ(said("a.i", "%A G71*\nN99999999 %A G71 *\n"), "");
   EXPECT_EQ(said("a.h", "0 BEGIN PGM END 1 MM\n1 END PGM END 1 MM\n"), "");
+}
+
+TEST(Check, KnowsAxesAndCorrectedToolsOfASetup) {
+  const Folder folder;
+  const std::string tool = "[[tool]]\nnumber = 1\nname = \"PROBE\"\nkind = \"probe\"\nlength = 100\nball_radius = 3\n";
+  const std::string tnc = folder.file("tnc.toml", "[control]\ntype = \"TNC640\"\n" + tool);
+  const std::string siemens = folder.file("840.toml", "[control]\ntype = \"840Dsl\"\n" + tool);
+  const auto check = [&](const std::string& name, const std::string& text, const std::string& setup) {
+    return probewright({"check", "--setup", setup, folder.file(name, text)}).errors;
+  };
+  EXPECT_THAT(check("a.h", "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z\n2 L X+1 C+10 R0 FMAX\n3 END PGM A MM\n", tnc),
+              HasSubstr("a.h:3:9: error: the machine of the setup has no axis C\n"));
+  EXPECT_EQ(check("a.h", "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z\n2 L X+1 R0 FMAX\n3 END PGM A MM\n", tnc), "");
+  EXPECT_THAT(check("a.mpf", "G0 X1 C10\nM30\n", siemens),
+              HasSubstr("a.mpf:1:7: error: the machine of the setup has no axis C\n"));
+  const std::string call = "CYCLE977({},0,{},1,40,,,5,3,0,,,,1,1,\"{}\",,,,,,,,,1,)\nM30\n";
+  const auto corrects = [&](int variant, int edge, const std::string& name) {
+    return check("a.mpf", fmt::format(fmt::runtime(call), variant, edge, name), siemens);
+  };
+  EXPECT_THAT(corrects(201, 1, "NOTOOL"), HasSubstr("error: the setup has no tool NOTOOL\n"));
+  EXPECT_EQ(corrects(201, 1, "PROBE"), "");
+  EXPECT_EQ(corrects(201, 1, "1"), "");
+  EXPECT_THAT(corrects(101, 1, "NOTOOL"), Not(HasSubstr("no tool NOTOOL")));
 }
 
 TEST(Check, KnowsToolsAndPresetsOfASetup) {

@@ -204,6 +204,35 @@ TEST(PathWords, RotaryAxesInArcsAreNamed) {
   EXPECT_TRUE(named);
 }
 
+/// What came after the last software of the iTNC 530 is a mistake there; its formulas have % (its manual prints it).
+TEST(PathWords, BlocksThatTheITnc530Lacks) {
+  const auto said = [](const std::string& block, control::ControlKind kind) {
+    KlartextProgram program("a.h", "BEGIN PGM A MM\n" + block + "\nEND PGM A MM\n");
+    const Diagnostics found = checkProgram(program, kind);
+    return found.empty() ? std::string("nothing") : found.front().message;
+  };
+  using control::ControlKind;
+  for (const auto& [block, name] : std::vector<std::pair<std::string, std::string>>{
+           {"TABDATA READ Q1 = TOOL COLUMN \"L\" KEY \"1\"", "TABDATA READ"},
+           {"OPEN FILE \"a.txt\"", "OPEN FILE"},
+           {"PRESET SELECT #1", "PRESET SELECT"},
+           {"PRESET COPY #1 TO #2", "PRESET COPY"},
+           {"PRESET CORR X+1", "PRESET CORR"},
+           {"TRANS MIRROR AXIS X", "TRANS MIRROR"},
+           {"TRANS ROTATION ROT+5", "TRANS ROTATION"},
+           {"TRANS SCALE RESET", "TRANS SCALE"},
+           {"PLANE SPATIAL SPA+0 SPB+0 SPC+0 TURN FMAX SYM+", "SYM"},
+           {"FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS REFPNT TIP-TIP", "REFPNT of FUNCTION TCPM"},
+           {"FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS F1000", "the feed limit of FUNCTION TCPM"}}) {
+    EXPECT_EQ(said(block, ControlKind::iTNC530), "the iTNC530 does not have " + name) << block;
+    EXPECT_EQ(said(block, ControlKind::TNC640), "nothing") << block;
+  }
+  for (const char* block : {"Q12 = 400 % 360", "TRANS DATUM AXIS X+5", "PLANE SPATIAL SPA+0 SPB+0 SPC+0 TURN FMAX SEQ+",
+                            "FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS"})
+    EXPECT_EQ(said(block, ControlKind::iTNC530), "nothing") << block;
+  EXPECT_EQ(said("CALL PGM", ControlKind::TNC640), "the name of a program is expected after CALL PGM");
+}
+
 /// A parameter that a cycle has twice is named where it stands, and each of them.
 TEST(PathWords, DoubledCycleParametersAreNamedAtTheirPlaces) {
   KlartextProgram program("a.h",

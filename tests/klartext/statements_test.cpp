@@ -252,7 +252,7 @@ TEST(Statements, Fn16RefusesNamesThatAreNoLogOfItsOwn) {
   EXPECT_EQ(refused("PRESET.PR"), "FN 16: file wrong: The run writes PRESET.PR itself");
   EXPECT_EQ(refused("OUT/results.json"), "FN 16: file wrong: The run writes results.json itself");
   EXPECT_EQ(refused("main.h"), "FN 16: file wrong: main.h is read by this run");
-  EXPECT_THAT(refused(std::string(249, 'A')), HasSubstr("has 249 bytes, at most 248 are possible"));
+  EXPECT_THAT(refused(std::string(249, 'A')), HasSubstr("has 249 bytes; a name has at most 248"));
   EXPECT_EQ(refused(std::string(248, 'A')), "no alarm");
 }
 

@@ -92,6 +92,17 @@ TEST(SinumerikBlockWords, NamedMotionsAreModal) {
   EXPECT_NEAR(highest, 20, 1e-3) << "the way goes through its intermediate point";
 }
 
+/// Messages about single words have a column.
+TEST(SinumerikBlockWords, AuxiliaryFunctionsAreNamedAtTheirPlaces) {
+  for (const auto& [block, column] : std::vector<std::pair<std::string, std::uint32_t>>{
+           {"H=5", 1}, {"G1 H1=5", 4}, {"N10 H[1]=5", 5}, {"M=21", 1}, {"X5 M1=21", 4}}) {
+    const auto program = SinumerikProgram::fromText("test.mpf", "G90\n" + block + "\nM30\n");
+    const Diagnostics found = check(*program);
+    ASSERT_FALSE(found.empty()) << block;
+    EXPECT_EQ(found.front().place.column, column) << block;
+  }
+}
+
 TEST(SinumerikBlockWords, ThatBelongTogether) {
   for (const char* blocks : {"G17 G54 G90 G94 G71 G64 G40 G450 DIAMOF CFC",
                              "G1 X5 Y5 ANG=45 RND=2 FRC=100 F500",

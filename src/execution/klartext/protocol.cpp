@@ -110,7 +110,7 @@ std::string Protocol::fileOf(const std::string& target) const {
   }
   if (name == "." || name == "..") refuseName(fmt::format("{} is a folder, not a file", name));
   if (name.size() > longestName) {
-    refuseName(fmt::format("The name {}... has {} bytes, at most {} are possible", name.substr(0, 40), name.size(),
+    refuseName(fmt::format("The name {}... has {} bytes; a name has at most {}", name.substr(0, 40), name.size(),
                            longestName));
   }
   const bool table = std::ranges::any_of(

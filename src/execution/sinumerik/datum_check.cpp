@@ -71,7 +71,7 @@ void requireDatum(std::string_view name, std::span<const Value> indices, const V
   const control::sinumerik::MeasuringDatum* measuring = control::sinumerik::findMeasuringDatum(name);
   if (measuring == nullptr) return;
   if (measuring->elements == 0 && !indices.empty())
-    throw Alarm("12400", fmt::format("{} is no array", name), "write it without an index");
+    throw Alarm("12400", fmt::format("{} is not an array", name), "write it without an index");
   if (measuring->elements > 0 && !indices.empty()) requireIndex(name, indices, 0, 0, measuring->elements - 1);
   requireNumber(name, value);
 }

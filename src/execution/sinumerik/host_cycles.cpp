@@ -40,6 +40,23 @@ std::string namedArguments(const cycles::CycleDefinition& definition, const Alar
   return named;
 }
 
+/// The alarm of a call in the old form, with the variables that its program writes: _FA for S_FA.
+Alarm inOldForm(const cycles::CycleDefinition& definition, const Alarm& alarm) {
+  const auto translated = [&](std::string text) {
+    for (const cycles::Parameter& parameter : definition.parameters) {
+      const std::string name(parameter.name);
+      if (!name.starts_with("S_")) continue;
+      const std::string old = name == "S_SETV" ? "_SETVAL" : name == "S_KNUM1" ? "_KNUM" : name.substr(1);
+      for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + old.size())) {
+        const char next = at + name.size() < text.size() ? text[at + name.size()] : ' ';
+        if (!isNamePart(next)) text.replace(at, name.size(), old);
+      }
+    }
+    return text;
+  };
+  return Alarm(alarm.code(), translated(alarm.text()), translated(alarm.advice()));
+}
+
 }  // namespace
 
 /// The interpreter found no program of this name.
@@ -85,8 +102,10 @@ void SinumerikHost::runCycle(std::string_view name, WordRange range, Evaluation&
     }
   }
   std::optional<cycles::sinumerik::OldFeed> feed;
+  bool oldForm = false;
   if (range.count == 0 && cycles::sinumerik::hasOldForm(definition) &&
       cycles::sinumerik::hasOldParameters(control_.data)) {
+    oldForm = true;
     arguments = cycles::sinumerik::argumentsOfOldForm(definition, control_);
     entry = cycles::sinumerik::findEntry(arguments.definition().name);
     const bool ownFeed =
@@ -101,6 +120,7 @@ void SinumerikHost::runCycle(std::string_view name, WordRange range, Evaluation&
     cycles::sinumerik::runCycle(control_, *entry, arguments, place,
                                 [&] { callMachineBuilder(definition.number, Occasion::SpindlePositioned); });
   } catch (const Alarm& alarm) {
+    if (oldForm) throw inOldForm(arguments.definition(), alarm);
     const std::string named = namedArguments(definition, alarm);
     if (named.empty()) throw;
     throw Alarm(alarm.code(), alarm.text(), alarm.advice() + named);

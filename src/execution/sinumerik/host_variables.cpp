@@ -320,7 +320,7 @@ void SinumerikHost::fill(const Command& command, Evaluation& evaluation) {
     if (target.indices.empty()) {
       // A name without an index means the first element.
       if (!control::sinumerik::isArrayDatum(name) && name != "_OVR" && name != "_OVI")
-        throw Alarm("12400", fmt::format("{} is no array: SET and REP fill arrays", target.name),
+        throw Alarm("12400", fmt::format("{} is not an array: SET and REP fill arrays", target.name),
                     fmt::format("write {}= and one value", target.name));
       target.indices.emplace_back(0.0);
     }

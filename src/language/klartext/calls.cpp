@@ -62,12 +62,18 @@ bool BlockParser::checkPath(std::string_view path) {
   return error("the quotation marks of this name do not match", "write the name between two quotation marks");
 }
 
+bool BlockParser::callSelectedProgram() {
+  CallProgram call;
+  call.nameValue = callHost("SELECTED PGM", {});
+  emit(call);
+  return expectEnd();
+}
+
 bool BlockParser::callProgram() {
   CallProgram call;
   if (lexer_.atEnd()) {
-    call.nameValue = callHost("SELECTED PGM", {});
-    emit(call);
-    return true;
+    return error("the name of a program is expected after CALL PGM",
+                 "write its name, or CALL SELECTED PGM for the one that SEL PGM names");
   }
   if (const std::optional<std::string_view> name = lexer_.quoted()) {
     call.name = ref(*name);

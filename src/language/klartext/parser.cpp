@@ -123,7 +123,8 @@ bool BlockParser::statement() {
       }
       if (lexer_.acceptKeyword("CALL")) {
         if (lexer_.acceptPrefix("LBL")) return callLabel();
-        if (lexer_.acceptKeyword("PGM") || lexer_.acceptKeyword("SELECTED PGM")) return callProgram();
+        if (lexer_.acceptKeyword("SELECTED PGM")) return callSelectedProgram();
+        if (lexer_.acceptKeyword("PGM")) return callProgram();
         return error("LBL or PGM is expected after CALL", meantWord(lexer_, {"LBL", "PGM"}));
       }
       if (lexer_.acceptKeyword("CC")) return move(MoveKind::SetCentre, pathWords("CC"));

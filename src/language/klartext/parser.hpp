@@ -106,6 +106,7 @@ protected:
   bool callLabel();
   bool repeats(CallLabel& call);
   bool callProgram();
+  bool callSelectedProgram();
   bool checkPath(std::string_view path);
   bool selection();
   bool cycleCall();

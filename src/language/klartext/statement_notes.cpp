@@ -10,6 +10,7 @@
 
 #include "base/number_text.hpp"
 #include "language/klartext/commands.hpp"
+#include "language/klartext/control_blocks.hpp"
 #include "language/klartext/global_groups.hpp"
 #include "language/klartext/lexer.hpp"
 #include "language/klartext/system_data_numbers.hpp"
@@ -35,8 +36,13 @@ std::span<const Word> wordsOf(const Block& block, WordRange range) {
 
 std::vector<StatementNotes::Note> StatementNotes::of(const Block& block) {
   notes_.clear();
-  for (const Instruction& instruction : block.instructions)
+  for (const Instruction& instruction : block.instructions) {
     std::visit([&](const auto& each) { look(block, each); }, instruction);
+    if (const auto lacked = lackedBlock(kind_, block, instruction)) {
+      note(Severity::Error, fmt::format("the {} does not have {}", control::name(kind_), lacked->name),
+           std::string(lacked->advice));
+    }
+  }
   return std::exchange(notes_, {});
 }
 

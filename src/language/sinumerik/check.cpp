@@ -15,6 +15,7 @@
 #include "language/sinumerik/known_system_variables.hpp"
 #include "language/sinumerik/operators.hpp"
 #include "language/sinumerik/writer.hpp"
+#include "language/word_column.hpp"
 
 namespace probewright::language::sinumerik {
 
@@ -27,7 +28,9 @@ std::size_t Checker::columnOf(std::string_view name) const {
 
 Diagnostic Checker::complaint(std::size_t column, std::string message, std::string advice) const {
   Diagnostic mistake;
-  mistake.place = {program_.file(), block_.position.line, static_cast<std::uint32_t>(column)};
+  const std::uint32_t place =
+      column > 0 ? static_cast<std::uint32_t>(column) : columnOfFirstWord(block_.at(block_.source));
+  mistake.place = {program_.file(), block_.position.line, place};
   mistake.message = std::move(message);
   mistake.excerpt = std::string(block_.at(block_.source));
   mistake.advice = std::move(advice);
@@ -199,7 +202,10 @@ void Checker::checkInstruction(const Instruction& instruction) {
       if (const std::string_view what = skippedTransformation(arguments); !what.empty())
         tell(std::string(what), "is not carried out");
     }
-    if (name == "H") tell("the auxiliary function H", "is not carried out");
+    if (name == "H") {
+      const std::size_t column = modal->words.count > 0 ? block_.words[modal->words.first].column : 0;
+      tell("the auxiliary function H", "is not carried out", column);
+    }
     if (name == "G291")
       report(columnOf(name), "G291: programs of the ISO dialect are not available",
              "Write the program in the language of the control.");
@@ -214,7 +220,8 @@ void Checker::checkInstruction(const Instruction& instruction) {
         report(columnOf(name), wrong, std::string(cycles::sinumerik::rotationOffsetAdvice), Severity::Warning);
   } else if (const auto* function = std::get_if<MachineFunction>(&instruction)) {
     if (isSkippedMachineFunction(function->number))
-      tell(fmt::format("M{}", function->number), "is carried out only by a machine that has it");
+      tell(fmt::format("M{}", function->number), "is carried out only by a machine that has it",
+           columnOf(fmt::format("M{}", function->number)) > 0 ? 0 : columnOf("M"));
   } else if (const auto* move = std::get_if<Move>(&instruction)) {
     for (std::uint32_t i = 0; i < move->words.count; ++i) {
       const std::string_view name = skippedMoveWord(block_.words[move->words.first + i].address);
@@ -226,9 +233,10 @@ void Checker::checkInstruction(const Instruction& instruction) {
 }
 
 /// A word that is not carried out is named once in a program.
-void Checker::tell(const std::string& name, std::string_view how) {
+void Checker::tell(const std::string& name, std::string_view how, std::size_t column) {
   if (!told_.insert(name).second) return;
-  report(columnOf(name), fmt::format("{} {}", name, how), "The run continues; --strict refuses it.", Severity::Warning);
+  report(column > 0 ? column : columnOf(name), fmt::format("{} {}", name, how),
+         "The run continues; --strict refuses it.", Severity::Warning);
 }
 
 void Checker::checkEffect(const Command& command, const std::string& name) {

@@ -36,7 +36,7 @@ private:
   void checkPriorities();
   void checkFunctions();
   void checkEffect(const Command& command, const std::string& name);
-  void tell(const std::string& name, std::string_view how);
+  void tell(const std::string& name, std::string_view how, std::size_t column = 0);
   void checkInstruction(const Instruction& instruction);
   void checkTarget(TextRef label, JumpDirection direction);
   void checkCall(const CallProgram& call);

@@ -1,5 +1,6 @@
 #include "session/sinumerik/family.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <regex>
@@ -9,6 +10,7 @@
 #include "control/sinumerik/tool_data.hpp"
 #include "conversion/convert.hpp"
 #include "cycles/sinumerik/circle_through_points.hpp"
+#include "cycles/sinumerik/registry.hpp"
 #include "cycles/sinumerik/rotation_offset.hpp"
 #include "execution/sinumerik/global_data.hpp"
 #include "language/sinumerik/check.hpp"
@@ -92,6 +94,21 @@ Inventory inventoryOf(const control::Beliefs& beliefs, ControlKind, Diagnostics&
     return tool.number == 0 || toolEdge(data->store, static_cast<int>(std::lround(tool.number)), 1).has_value();
   };
   inventory.hasPreset = [](const NamedItem&) { return true; };
+  inventory.correctedTool = [](std::string_view name, const auto& number) -> std::optional<std::uint32_t> {
+    const cycles::sinumerik::Entry* entry = cycles::sinumerik::findEntry(name);
+    if (entry == nullptr) return std::nullopt;
+    const auto place = [&](std::string_view parameter) -> std::optional<std::uint32_t> {
+      const auto found = std::ranges::find(entry->definition.parameters, parameter, &cycles::Parameter::name);
+      if (found == entry->definition.parameters.end()) return std::nullopt;
+      return found->address;
+    };
+    const auto tool = place("S_TNAME"), edge = place("S_KNUM1"), kind = place("S_MVAR");
+    if (!tool || !edge || !kind) return std::nullopt;
+    const auto variant = number(*kind), target = number(*edge);
+    // The hundreds of S_MVAR ask for a correction of a tool, S_KNUM1 says which of its data.
+    const bool corrects = variant && target && *target != 0 && static_cast<long>(std::abs(*variant)) / 100 % 10 == 2;
+    return corrects ? tool : std::nullopt;
+  };
   constexpr const char* offset = "$SNS_MEA_T_PROBE_OFFSET";
   if (const std::string wrong = cycles::sinumerik::rotationOffsetComplaint(data->store.number(offset, {}));
       !wrong.empty()) {
