@@ -281,6 +281,7 @@ int run(const RunArguments& arguments) {
   if (arguments.preview) return static_cast<int>(outcome.info.exit);
   records::RunInfo info = outcome.info;
   info.version = PROBEWRIGHT_VERSION;
+  info.doubtfulUncertainties = uncertainties.doubtful;
   info.job = jobOf(setup->job, arguments.job);
   info.startedAt = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(static_cast<std::time_t>(options.wallClock)));
   noteIdentities(outcome.inputs, inputs);

@@ -366,7 +366,11 @@ void writeResults(const Sink& sink, const control::Journal& journal, const RunIn
          object.list(key, journal.cycles, [&](const auto& record) {
            const std::size_t place = next++;
            const bool known = run.truth && place < run.truth->cycles.size();
-           return cycle(record, known ? run.truth->cycles[place] : nothing, run.axes, features, text);
+           json made = cycle(record, known ? run.truth->cycles[place] : nothing, run.axes, features, text);
+           const auto& doubtful = run.doubtfulUncertainties;
+           for (auto each = doubtful.lower_bound({place, 0}); each != doubtful.end() && each->first == place; ++each)
+             made["results"].at(each->second)["uncertaintyHolds"] = false;
+           return made;
          });
        }},
       {"events",

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "machine/description.hpp"
@@ -42,7 +45,10 @@ struct RunInfo {
   double totalPathLength = 0;            ///< mm travelled by the tool in the whole run
   std::vector<std::string> outputFiles;  ///< tables and logs left by the control, relative to the output folder
   ExitState exit = ExitState::Good;
-  std::string exitText;                ///< why it ended so, one sentence; empty when there is nothing to say
+  std::string exitText;  ///< why it ended so, one sentence; empty when there is nothing to say
+  /// Results whose uncertainty is not trustworthy, by the places of cycle and result: first order is wrong by more than
+  /// 5 %.
+  std::set<std::pair<std::size_t, std::size_t>> doubtfulUncertainties;
   std::shared_ptr<const Truth> truth;  ///< what was planted; null: nobody knows it, or it is not to be told
 };
 

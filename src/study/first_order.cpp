@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cycles/main_results.hpp"
+#include "study/moved_touches.hpp"
 
 namespace probewright::study {
 
@@ -119,6 +120,9 @@ bool isMeasured(const ResultRecord& result) {
          result.kind.of.quantity != Quantity::None && result.kind.of.quantity != Quantity::Name;
 }
 
+/// Of what first order may be wrong by.
+constexpr double tolerated = 0.05;
+
 }  // namespace
 
 std::optional<double> sensitivityToTouches(const CycleRecord& cycle, const ResultRecord& result) {
@@ -141,15 +145,22 @@ double scatterOf(const simulation::Truth& truth) {
 
 std::string firstOrderText(const control::Journal& journal, const FirstOrder& done) {
   std::string text = "\nUncertainties (k = 2) from the scatter of the probe, to first order (GUM)\n";
-  for (const CycleRecord& cycle : journal.cycles) {
+  for (std::size_t c = 0; c < journal.cycles.size(); ++c) {
+    const CycleRecord& cycle = journal.cycles[c];
     const std::vector<bool> isMain = cycles::mainResults(cycle);
     for (std::size_t i = 0; i < cycle.results.size(); ++i) {
       const ResultRecord& result = cycle.results[i];
-      if (isMain[i] && result.uncertainty)
-        text += fmt::format("  {} {}: {:.6f} +- {:.2g} {}\n", cycle.name, result.name, result.value,
-                            *result.uncertainty, result.unit);
+      if (!isMain[i] || !result.uncertainty) continue;
+      text += fmt::format(
+          "  {} {}: {:.6f} +- {:.2g} {}{}\n", cycle.name, result.name, result.value, *result.uncertainty, result.unit,
+          done.doubtful.contains({c, i}) ? "  not trustworthy: first order is wrong by more than 5 %" : "");
     }
   }
+  if (!done.doubtful.empty())
+    text += fmt::format(
+        "  {} values are not trustworthy: their fits do not follow the scatter of the touches linearly. Measure a\n"
+        "  larger arc or more touches, or let `probewright study` say what they are worth\n",
+        done.doubtful.size());
   if (done.withheld > 0)
     text +=
         fmt::format("  {} values have none: how they follow the touches is not known to first order\n", done.withheld);
@@ -172,14 +183,23 @@ FirstOrder addUncertainties(control::Journal& journal, const simulation::Truth& 
     return done;
   }
   bool corrected = false, follows = false;  // what later cycles measure from
-  for (CycleRecord& cycle : journal.cycles) {
+  for (std::size_t c = 0; c < journal.cycles.size(); ++c) {
+    CycleRecord& cycle = journal.cycles[c];
     follows = follows || (corrected && !cycle.results.empty());
     corrected = corrected || !cycle.writes.empty();
-    for (ResultRecord& result : cycle.results) {
+    std::optional<MovedTouches> moved;
+    for (std::size_t i = 0; i < cycle.results.size(); ++i) {
+      ResultRecord& result = cycle.results[i];
       if (!isMeasured(result)) continue;
       const auto sensitivity = sensitivityToTouches(cycle, result);
-      if (sensitivity) result.uncertainty = 2 * *sensitivity * scatter;
       ++(sensitivity ? done.given : done.withheld);
+      if (!sensitivity) continue;
+      const double uncertainty = *sensitivity * scatter;
+      result.uncertainty = 2 * uncertainty;
+      if (cycle.fits.empty()) continue;  // single touches and pairs: linear
+      if (!moved) moved.emplace(cycle, cycle.fits.front(), scatter);
+      const auto found = moved->uncertaintyOf(result);
+      if (!found || std::abs(*found - uncertainty) > tolerated * uncertainty) done.doubtful.emplace(c, i);
     }
   }
   if (follows) done.notHeld.emplace_back("the scatter of what earlier cycles have set and later ones measure from");

@@ -2,7 +2,9 @@
 
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "control/journal.hpp"
@@ -15,6 +17,8 @@ namespace probewright::study {
 struct FirstOrder {
   std::size_t given = 0;     ///< results that have got their uncertainty
   std::size_t withheld = 0;  ///< measured values whose dependence on the touches is not known here
+  /// Of those given, results for which first order is wrong by more than 5 %: places of cycle and result.
+  std::set<std::pair<std::size_t, std::size_t>> doubtful;
   /// What of the setup the uncertainties do not hold, one sentence each: where there is one, they are too small.
   std::vector<std::string> notHeld;
 };
@@ -22,7 +26,9 @@ struct FirstOrder {
 /// Enters the expanded uncertainty (k = 2) of measured values and differences into the journal of a run with
 /// workpieces: by the cofactors of the cycle's fit, or, where single touches or pairs of opposite ones were evaluated,
 /// by their number. What a tool touch probe has measured gets none. The standard uncertainty of a touch is the
-/// repeatability of the probe; where probes differ, of the one that repeats worst.
+/// repeatability of the probe; where probes differ, of the one that repeats worst. Fits are laid again through touches
+/// that such errors have moved: a result that these move by another value than first order says, by more than 5 %, is
+/// doubtful.
 FirstOrder addUncertainties(control::Journal& journal, const simulation::Truth& truth);
 
 /// Lines for a terminal: each main result with its uncertainty, and what that does not hold.

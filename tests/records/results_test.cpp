@@ -97,6 +97,16 @@ TEST(ResultsSchema, DescribesEveryPropertyOfTheResults) {
     EXPECT_FALSE(file["definitions"][name].value("description", "").empty()) << name;
 }
 
+TEST(Results, MarkUncertaintiesThatDoNotHold) {
+  RunInfo info = sample::runInfo();
+  info.doubtfulUncertainties = {{3, 2}};
+  const json results = json::parse(resultsText(sample::journal(), info));
+  EXPECT_EQ(complaints(results), "");
+  EXPECT_EQ(results["cycles"][3]["results"][2]["uncertaintyHolds"], false);
+  for (const std::size_t other : {0, 1})
+    EXPECT_FALSE(results["cycles"][3]["results"][other].contains("uncertaintyHolds"));
+}
+
 TEST(Results, KeepEveryNumberOfTheRun) {
   const json results = sampleResults();
   const json& hole = results["cycles"][3];

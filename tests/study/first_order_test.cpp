@@ -1,11 +1,18 @@
 #include "study/first_order.hpp"
 
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
+#include <random>
 
+#include "metrology/fits.hpp"
 #include "setup/simulated_run.hpp"
 #include "study/program_bench.hpp"
 
@@ -14,20 +21,33 @@ namespace {
 
 struct Ran {
   std::map<std::string, std::optional<double>> uncertainties;  ///< by cycle and name
+  std::map<std::string, bool> holds;
+  std::string text;
   FirstOrder done;
 };
 
-Ran runWith(const std::string& setupText, const std::string& text) {
+/// With a scatter of its own, if one is given: that of the touches stays that of the setup.
+Ran runWith(const std::string& setupText, const std::string& text, std::optional<double> scatter = {}) {
   Diagnostics mistakes;
   const auto setup = setup::parseSetup(setupText, "setup.toml", mistakes);
   EXPECT_TRUE(setup);
   auto run = setup::runText("p.h", text, *setup, {});
   EXPECT_EQ(run.outcome.result.end, execution::RunEnd::Finished);
+  EXPECT_FALSE(hasErrors(run.outcome.diagnostics)) << format(run.outcome.diagnostics.front());
   Ran ran;
-  ran.done = addUncertainties(run.outcome.journal, setup->world.truth);
-  for (const auto& cycle : run.outcome.journal.cycles)
-    for (const auto& result : cycle.results)
-      ran.uncertainties[cycle.name + " " + result.name] = result.uncertainty;
+  simulation::Truth truth = setup->world.truth;
+  for (simulation::TrueTool& tool : truth.tools)
+    if (scatter) tool.probe.repeatability = *scatter;
+  ran.done = addUncertainties(run.outcome.journal, truth);
+  ran.text = firstOrderText(run.outcome.journal, ran.done);
+  const auto& cycles = run.outcome.journal.cycles;
+  for (std::size_t c = 0; c < cycles.size(); ++c) {
+    for (std::size_t i = 0; i < cycles[c].results.size(); ++i) {
+      const auto& result = cycles[c].results[i];
+      ran.uncertainties[cycles[c].name + " " + result.name] = result.uncertainty;
+      ran.holds[cycles[c].name + " " + result.name] = !ran.done.doubtful.contains({c, i});
+    }
+  }
   return ran;
 }
 
@@ -86,6 +106,94 @@ TEST(FirstOrder, SaysWhatItDoesNotHold) {
   EXPECT_EQ(none.done.given, 0U);
   EXPECT_FALSE(none.uncertainties.at("421 Q151"));
   EXPECT_THAT(none.done.notHeld, ::testing::ElementsAre(::testing::HasSubstr("no repeatability")));
+}
+
+/// Cycle 421 by so many touches, the first at an angle and the others a step apart, degrees.
+std::string arc(double start, double step, int points) {
+  return fmt::format(
+      "4 TCH PROBE 421 MEASURE HOLE ~\nQ273=+0 ~\nQ274=+0 ~\nQ262=+30 ~\nQ325={:+.3f} ~\nQ247={:+.3f} ~\nQ261=-5 ~\n"
+      "Q320=+2 ~\nQ260=+20 ~\nQ301=+0 ~\nQ275=+0 ~\nQ276=+0 ~\nQ279=+0 ~\nQ280=+0 ~\nQ281=+0 ~\nQ309=+0 ~\n"
+      "Q330=+0 ~\nQ423=+{} ~\nQ365=+1\n",
+      start, step, points);
+}
+
+TEST(FirstOrder, SaysWhereItIsNotTrustworthy) {
+  const Ran shortArc = runWith(plateSetup("repeatability = 0.02\n"), program(arc(20, 6, 4)));
+  EXPECT_FALSE(shortArc.holds.at("421 Q153"));
+  EXPECT_FALSE(shortArc.done.doubtful.empty());
+  EXPECT_THAT(shortArc.text, ::testing::ContainsRegex("421 Q153: .*not trustworthy: first order"));
+  EXPECT_THAT(shortArc.text, ::testing::HasSubstr("probewright study"));
+  const Ran full = runWith(plateSetup("repeatability = 0.0005\n"), program(arc(0, 90, 4)));
+  for (const char* result : {"421 Q151", "421 Q152", "421 Q153"})
+    EXPECT_TRUE(full.holds.at(result)) << result;
+  EXPECT_TRUE(full.done.doubtful.empty());
+  EXPECT_THAT(full.text, ::testing::Not(::testing::HasSubstr("trustworthy")));
+}
+
+TEST(FirstOrder, IsTrustedWhereResultsFollowTheTouchesLinearly) {
+  for (const double scatter : {1e-6, 0.001, 0.3}) {
+    const Ran ran = runWith(plateSetup(""), program(side + width + edge + plane), scatter);
+    for (const auto& [key, holds] : ran.holds)
+      EXPECT_TRUE(holds) << key << " " << scatter;
+    EXPECT_GT(ran.done.given, 5U);
+  }
+}
+
+/// The fit of a bore of 30 mm by a ball of 6 mm whose touches scatter: how far centre and diameter are from the true
+/// ones (root of the mean square) over what first order says, less 1. Infinite if some touches make no circle.
+std::array<double, 3> wrongBy(double start, double step, int points, double scatter, std::mt19937_64& random) {
+  const double radius = 12;
+  std::vector<Vector2> outwards;
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  for (int i = 0; i < points; ++i) {
+    const double angle = (start + i * step) * std::numbers::pi / 180;
+    outwards.emplace_back(std::cos(angle), std::sin(angle));
+    const Vector3 row(outwards.back().x(), outwards.back().y(), 1);
+    normal += row * row.transpose();
+  }
+  const Eigen::Matrix3d cofactors = normal.inverse();
+  std::normal_distribution<double> error(0, scatter);
+  std::array<double, 3> squares{};
+  constexpr int trials = 6000;
+  for (int trial = 0; trial < trials; ++trial) {
+    std::vector<Vector2> touches;
+    for (const Vector2& way : outwards)
+      touches.emplace_back((radius + error(random)) * way);
+    const auto fit = metrology::fitCircle(touches);
+    const double none = std::numeric_limits<double>::infinity();
+    if (!fit) return {none, none, none};
+    squares[0] += std::pow(fit->shape.centre.x(), 2) / trials;
+    squares[1] += std::pow(fit->shape.centre.y(), 2) / trials;
+    squares[2] += std::pow(fit->shape.radius - radius, 2) / trials;
+  }
+  std::array<double, 3> wrong{};
+  for (int i = 0; i < 3; ++i)
+    wrong[static_cast<std::size_t>(i)] =
+        std::abs(std::sqrt(squares[static_cast<std::size_t>(i)] / cofactors(i, i)) / scatter - 1);
+  return wrong;
+}
+
+/// Random arcs: the mark says what many fits of scattered touches say, unless these are near to 5 % themselves.
+TEST(FirstOrder, IsMarkedWhereManyFitsSayAnotherValue) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> unit(0, 1);
+  int marked = 0, trusted = 0;
+  for (int world = 0; world < 60; ++world) {
+    const int points = 3 + world % 2;
+    const double start = 360 * unit(random), step = 5 * std::pow(12, unit(random));
+    const double scatter = 0.0005 * std::pow(60, unit(random));
+    const Ran ran = runWith(plateSetup(""), program(arc(start, step, points)), scatter);
+    const auto wrong = wrongBy(start, step, points, scatter, random);
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (wrong[i] > 0.03 && wrong[i] < 0.08) continue;
+      const std::string key = "421 Q15" + std::to_string(i + 1);
+      EXPECT_EQ(ran.holds.at(key), wrong[i] < 0.05) << key << ": " << points << " touches from " << start << " by "
+                                                    << step << ", s = " << scatter << ", wrong by " << wrong[i];
+      ++(ran.holds.at(key) ? trusted : marked);
+    }
+  }
+  EXPECT_GT(marked, 8);
+  EXPECT_GT(trusted, 20);
 }
 
 /// 2,000 worlds whose part lies anyhow: the interval of +-1.96 u about each measured value holds the true one in 95 %

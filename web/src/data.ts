@@ -48,6 +48,8 @@ export interface ResultValue {
   lowerLimit?: number | null;
   upperLimit?: number | null;
   uncertainty?: number | null;
+  /** False where first order is wrong by more than 5 %. */
+  uncertaintyHolds?: boolean;
 }
 
 export interface Write {

@@ -59,9 +59,17 @@ export function resultCells(result: ResultValue, number: string, truth: boolean)
     ),
     h(
       "span",
-      { role: "cell", class: "number actual", title: String(result.value) + (result.uncertainty ? ` ${t("uncertainty", { value: quantity(result.uncertainty, unit) })}` : "") },
+      {
+        role: "cell",
+        class: "number actual",
+        title:
+          String(result.value) +
+          (result.uncertainty ? ` ${t("uncertainty", { value: quantity(result.uncertainty, unit) })}` : "") +
+          (result.uncertaintyHolds === false ? `; ${t("uncertaintyFails")}` : ""),
+      },
       value(result.value),
       h("i", { class: "unit" }, unitText(unit)),
+      result.uncertaintyHolds === false && h("abbr", { title: t("uncertaintyFails") }, " ±?"),
     ),
     cell("number deviation", value(result.deviation, true), result.deviation),
     h("span", { role: "cell", class: "bar" }, toleranceBar(result)),

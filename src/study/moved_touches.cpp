@@ -1,0 +1,178 @@
+#include "study/moved_touches.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "cycles/fit_records.hpp"
+#include "metrology/fits.hpp"
+#include "study/random.hpp"
+
+namespace probewright::study {
+
+using control::Along;
+using control::Quantity;
+
+namespace {
+
+constexpr std::uint64_t sets = 512;
+/// Any number; the errors depend on it alone.
+constexpr std::uint64_t seed = 100;
+
+bool isRound(const control::FitRecord& fit) { return fit.shape == "circle" || fit.shape == "sphere"; }
+
+std::vector<Vector2> inPlane(std::span<const Vector3> points) {
+  std::vector<Vector2> flat;
+  for (const Vector3& point : points)
+    flat.emplace_back(point.head<2>());
+  return flat;
+}
+
+/// Empty if no such shape passes through the points.
+std::vector<double> cofactorsOf(const std::string& shape, std::span<const Vector3> points) {
+  const auto of = [](const auto& fit) { return fit ? cycles::recordOf(*fit, {}).cofactors : std::vector<double>(); };
+  if (shape == "circle") return of(metrology::fitCircle(inPlane(points), cycles::withCofactors));
+  if (shape == "sphere") return of(metrology::fitSphere(points, cycles::withCofactors));
+  if (shape == "line") return of(metrology::fitLine(inPlane(points), cycles::withCofactors));
+  return of(metrology::fitPlane(points, cycles::withCofactors));
+}
+
+/// In degrees.
+double angle(double sine, double cosine) { return degreesFromRadians(std::atan2(sine, cosine)); }
+
+/// What a result says of the shape, but for what is added to it. Lengths in mm, angles in degrees.
+double valueOf(const control::FitRecord& fit, const Eigen::Vector4d& numbers, const control::ResultRecord& result) {
+  const Quantity quantity = result.kind.of.quantity;
+  const Along along = result.kind.of.along;
+  if (fit.shape == "line") return angle(numbers[1], numbers[0]);
+  if (fit.shape == "plane") return angle(numbers[along == Along::A ? 1 : 0], numbers[2]);
+  if (quantity == Quantity::Diameter) return 2 * numbers[3];
+  if (quantity == Quantity::Radius) return numbers[3];
+  return numbers[along == Along::First ? 0 : along == Along::Second ? 1 : 2];
+}
+
+}  // namespace
+
+MovedTouches::MovedTouches(const control::CycleRecord& cycle, const control::FitRecord& fit, double scatter)
+    : fit_(fit) {
+  findPoints(cycle);
+  const auto measured = numbersOf(points_);
+  if (!measured) return;
+  measured_ = *measured;
+  for (const Vector3& point : points_) {
+    Vector3 normal = measured_.head<3>();
+    if (isRound(fit)) normal = (point - measured_.head<3>()).normalized();
+    if (fit.shape == "line") normal = Vector3(-measured_[1], measured_[0], 0);
+    normals_.push_back(normal);
+  }
+  const std::size_t count = points_.size();
+  determined_ = true;
+  for (std::size_t i = 0; i < count; ++i) {
+    std::vector<double> errors(count);
+    for (const double error : {scatter, -scatter}) {
+      errors[i] = error;
+      move(errors, one_);
+    }
+  }
+  const boost::math::normal normal;
+  for (std::uint64_t set = 0; set < sets && determined_; ++set) {
+    std::vector<double> errors;
+    for (std::size_t i = 0; i < count; ++i)
+      errors.push_back(boost::math::quantile(normal, uniforms({seed, set}, static_cast<std::uint32_t>(i))[0]));
+    for (const double sign : {scatter, -scatter}) {
+      std::vector<double> moved = errors;
+      for (double& error : moved)
+        error *= sign;
+      move(moved, all_);
+    }
+    errors_.push_back(std::move(errors));
+  }
+}
+
+/// The record of a fit does not say in which working plane it lies: it is the one in which the balls of its touches
+/// give the cofactors of the record. Lines give the same ones, and what is asked here, in any plane that they lie in.
+void MovedTouches::findPoints(const control::CycleRecord& cycle) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const int tool : {2, 1, 0}) {
+    std::vector<Vector3> points;
+    for (const std::size_t touch : fit_.touches) {
+      if (touch >= cycle.touches.size()) return;
+      const Vector3& ball = cycle.touches[touch].ballCentre;
+      // Circles and lines lie in the plane.
+      const bool flat = fit_.shape == "circle" || fit_.shape == "line";
+      points.emplace_back(ball[(tool + 1) % 3], ball[(tool + 2) % 3], flat ? 0 : ball[tool]);
+    }
+    const std::vector<double> cofactors = cofactorsOf(fit_.shape, points);
+    if (cofactors.size() != fit_.cofactors.size()) continue;
+    double apart = 0;
+    for (std::size_t i = 0; i < cofactors.size(); ++i)
+      apart = std::max(apart, std::abs(cofactors[i] - fit_.cofactors[i]));
+    if (!(apart < least)) continue;
+    least = apart;
+    points_ = std::move(points);
+  }
+}
+
+std::optional<MovedTouches::Numbers> MovedTouches::numbersOf(std::span<const Vector3> points) const {
+  Numbers numbers = Numbers::Zero();
+  if (fit_.shape == "circle") {
+    const auto made = metrology::fitCircle(inPlane(points));
+    if (!made) return std::nullopt;
+    numbers << made->shape.centre.x(), made->shape.centre.y(), 0, made->shape.radius;
+  } else if (fit_.shape == "sphere") {
+    const auto made = metrology::fitSphere(points);
+    if (!made) return std::nullopt;
+    numbers << made->shape.centre, made->shape.radius;
+  } else if (fit_.shape == "line") {
+    const auto made = metrology::fitLine(inPlane(points));
+    if (!made) return std::nullopt;
+    numbers.head<2>() = made->shape.direction;
+  } else {
+    const auto made = metrology::fitPlane(points);
+    if (!made) return std::nullopt;
+    numbers.head<3>() = made->shape.normal;
+  }
+  return numbers;
+}
+
+void MovedTouches::move(const std::vector<double>& errors, std::vector<Numbers>& moved) {
+  std::vector<Vector3> points = points_;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i] += errors[i] * normals_[i];
+  const auto numbers = numbersOf(points);
+  determined_ = determined_ && numbers;
+  moved.push_back(numbers.value_or(measured_));
+}
+
+double MovedTouches::distance(const Numbers& moved, const control::ResultRecord& result) const {
+  const double distance = valueOf(fit_, moved, result) - valueOf(fit_, measured_, result);
+  return isRound(fit_) ? distance : std::remainder(distance, 360);
+}
+
+std::optional<double> MovedTouches::uncertaintyOf(const control::ResultRecord& result) const {
+  if (!determined_) return std::nullopt;
+  // What is linear has its variance without chance; the sets tell only what is left.
+  std::vector<double> slopes;
+  double variance = 0;
+  for (std::size_t i = 0; i < one_.size(); i += 2) {
+    slopes.push_back((distance(one_[i], result) - distance(one_[i + 1], result)) / 2);
+    variance += slopes.back() * slopes.back();
+  }
+  for (std::size_t set = 0; set < errors_.size(); ++set) {
+    double linear = 0;
+    for (std::size_t i = 0; i < slopes.size(); ++i)
+      linear += slopes[i] * errors_[set][i];
+    for (const std::size_t opposite : {std::size_t{0}, std::size_t{1}}) {
+      const double straight = opposite == 0 ? linear : -linear;
+      const double rest = distance(all_[2 * set + opposite], result) - straight;
+      variance += (2 * straight * rest + rest * rest) / static_cast<double>(all_.size());
+    }
+  }
+  return std::sqrt(std::max(variance, 0.0));
+}
+
+}  // namespace probewright::study
