@@ -1,12 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <barrier>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "study/model_bench.hpp"
+#include "study/rank_threads.hpp"
 #include "study/study_json.hpp"
 #include "study/study_text.hpp"
 
@@ -45,27 +44,15 @@ std::string jsonOf(const StudyResult& result) { return studyJson(result, {"p.h",
 
 /// The same study by so many ranks that hand in sums; `states` are those that the first one has kept.
 std::string jsonOfRanks(const Study& study, const Model& model, int size, std::vector<std::string>* states = nullptr) {
-  std::barrier everybody(size);
-  std::vector<std::string> board(static_cast<std::size_t>(size)), found(static_cast<std::size_t>(size));
-  std::vector<std::thread> threads;
-  for (int rank = 0; rank < size; ++rank) {
-    threads.emplace_back([&, rank] {
-      const Ranks ranks{rank, size, [&, rank](const std::string& mine) {
-                          board[static_cast<std::size_t>(rank)] = mine;
-                          everybody.arrive_and_wait();
-                          const std::vector<std::string> all = board;
-                          everybody.arrive_and_wait();
-                          return all;
-                        }};
-      StudyRun run;
-      run.crew = rankCrew(ranks, 1, {}, {});
-      run.summing = Summing{ranks, threadCrew(1, {}), {}, 250};
-      if (rank == 0 && states != nullptr) run.keepState = [&](const std::string& state) { states->push_back(state); };
-      found[static_cast<std::size_t>(rank)] = jsonOf(runStudy(study, {}, model, run));
-    });
-  }
-  for (std::thread& thread : threads)
-    thread.join();
+  std::vector<std::string> found(static_cast<std::size_t>(size));
+  onRankThreads(size, [&](const Ranks& ranks) {
+    StudyRun run;
+    run.crew = rankCrew(ranks, 1, {}, {});
+    run.summing = Summing{ranks, threadCrew(1, {}), {}, 250};
+    if (ranks.rank == 0 && states != nullptr)
+      run.keepState = [&](const std::string& state) { states->push_back(state); };
+    found[static_cast<std::size_t>(ranks.rank)] = jsonOf(runStudy(study, {}, model, run));
+  });
   for (const std::string& each : found)
     EXPECT_EQ(each, found.front());
   return found.front();

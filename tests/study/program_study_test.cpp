@@ -1,12 +1,11 @@
 #include <gtest/gtest.h>
 
-#include <barrier>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <thread>
 #include <utility>
 
 #include "study/program_bench.hpp"
+#include "study/rank_threads.hpp"
 #include "study/study_json.hpp"
 #include "study/study_text.hpp"
 #include "study/trial_file.hpp"
@@ -217,27 +216,14 @@ TEST(ProgramStudy, GivesTheSameBitsOnAnyNumberOfRanks) {
   const std::string study = "trials = 150\nsensitivity_trials = 20\n" + place;
   const std::string expected = jsonOf(studyOfProgram(plateSetup(), program(bore(3, 4)), study));
   for (const int size : {2, 4}) {
-    std::barrier everybody(size);
-    std::vector<std::string> board(static_cast<std::size_t>(size)), found(static_cast<std::size_t>(size));
-    std::vector<std::thread> threads;
-    for (int rank = 0; rank < size; ++rank) {
-      threads.emplace_back([&, rank] {
-        StudyRun run;
-        run.stretch = size == 2 ? 500 : 40;
-        run.crew = rankCrew({rank, size,
-                             [&, rank](const std::string& mine) {
-                               board[static_cast<std::size_t>(rank)] = mine;
-                               everybody.arrive_and_wait();
-                               const std::vector<std::string> all = board;
-                               everybody.arrive_and_wait();
-                               return all;
-                             }},
-                            1, {}, {});
-        found[static_cast<std::size_t>(rank)] = jsonOf(studyOfProgram(plateSetup(), program(bore(3, 4)), study, run));
-      });
-    }
-    for (std::thread& thread : threads)
-      thread.join();
+    std::vector<std::string> found(static_cast<std::size_t>(size));
+    onRankThreads(size, [&](const Ranks& ranks) {
+      StudyRun run;
+      run.stretch = size == 2 ? 500 : 40;
+      run.crew = rankCrew(ranks, 1, {}, {});
+      found[static_cast<std::size_t>(ranks.rank)] =
+          jsonOf(studyOfProgram(plateSetup(), program(bore(3, 4)), study, run));
+    });
     for (const std::string& each : found)
       EXPECT_TRUE(each == expected);
   }
@@ -254,30 +240,17 @@ TEST(ProgramStudy, GivesTheSameBitsWhereRanksHandInSums) {
   const std::string expected = jsonOf(studyOfProgram(setup, program(bore(3, 4)), study));
   std::string state;
   for (const int size : {1, 2, 3, 4}) {
-    std::barrier everybody(size);
-    std::vector<std::string> board(static_cast<std::size_t>(size)), found(static_cast<std::size_t>(size));
-    std::vector<std::thread> threads;
-    for (int rank = 0; rank < size; ++rank) {
-      threads.emplace_back([&, rank] {
-        const Ranks ranks{rank, size, [&, rank](const std::string& mine) {
-                            board[static_cast<std::size_t>(rank)] = mine;
-                            everybody.arrive_and_wait();
-                            const std::vector<std::string> all = board;
-                            everybody.arrive_and_wait();
-                            return all;
-                          }};
-        StudyRun run;
-        run.crew = rankCrew(ranks, 1, {}, {});
-        run.summing = Summing{ranks, threadCrew(1, {}), {}, 300};
-        int states = 0;
-        run.keepState = [&](const std::string& told) {
-          if (rank == 0 && size == 3 && ++states == 3) state = told;
-        };
-        found[static_cast<std::size_t>(rank)] = jsonOf(studyOfProgram(setup, program(bore(3, 4)), study, run));
-      });
-    }
-    for (std::thread& thread : threads)
-      thread.join();
+    std::vector<std::string> found(static_cast<std::size_t>(size));
+    onRankThreads(size, [&](const Ranks& ranks) {
+      StudyRun run;
+      run.crew = rankCrew(ranks, 1, {}, {});
+      run.summing = Summing{ranks, threadCrew(1, {}), {}, 300};
+      int states = 0;
+      run.keepState = [&](const std::string& told) {
+        if (ranks.rank == 0 && size == 3 && ++states == 3) state = told;
+      };
+      found[static_cast<std::size_t>(ranks.rank)] = jsonOf(studyOfProgram(setup, program(bore(3, 4)), study, run));
+    });
     for (const std::string& each : found)
       EXPECT_TRUE(each == expected) << size;
   }
@@ -293,32 +266,22 @@ TEST(ProgramStudy, GivesTheSameBitsWhereRanksHandInSums) {
 /// One of two ranks is stopped: both end after the same trial.
 TEST(ProgramStudy, StopsAllRanksAfterTheSameTrial) {
   const std::string study = "trials = 5000\nsensitivity = \"none\"\n" + place;
-  std::barrier everybody(2);
-  std::vector<std::string> board(2);
   std::vector<StudyResult> found(2);
   std::stop_source stopOfTheSecond;
-  std::vector<std::thread> threads;
-  for (int rank = 0; rank < 2; ++rank) {
-    threads.emplace_back([&, rank] {
-      std::stop_source all;
-      StudyRun run;
-      run.stop = all.get_token();
-      int stretches = 0;
-      run.crew = rankCrew({rank, 2,
-                           [&](const std::string& mine) {
-                             board[static_cast<std::size_t>(rank)] = mine;
-                             everybody.arrive_and_wait();
-                             const std::vector<std::string> both = board;
-                             if (rank == 1 && ++stretches == 3) stopOfTheSecond.request_stop();
-                             everybody.arrive_and_wait();
-                             return both;
-                           }},
-                          1, rank == 1 ? stopOfTheSecond.get_token() : std::stop_token(), all);
-      found[static_cast<std::size_t>(rank)] = studyOfProgram(plateSetup(), program(bore(3, 4)), study, run);
-    });
-  }
-  for (std::thread& thread : threads)
-    thread.join();
+  onRankThreads(2, [&](const Ranks& ranks) {
+    std::stop_source all;
+    StudyRun run;
+    run.stop = all.get_token();
+    int stretches = 0;
+    const auto exchange = [&](const std::string& mine) {
+      const std::vector<std::string> both = ranks.exchange(mine);
+      if (ranks.rank == 1 && ++stretches == 3) stopOfTheSecond.request_stop();
+      return both;
+    };
+    run.crew =
+        rankCrew({ranks.rank, 2, exchange}, 1, ranks.rank == 1 ? stopOfTheSecond.get_token() : std::stop_token(), all);
+    found[static_cast<std::size_t>(ranks.rank)] = studyOfProgram(plateSetup(), program(bore(3, 4)), study, run);
+  });
   EXPECT_EQ(found[0].end, StudyEnd::Interrupted);
   EXPECT_LT(found[0].trials, 5000U);
   EXPECT_GE(found[0].trials, 1000U);
