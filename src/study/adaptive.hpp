@@ -25,7 +25,8 @@ public:
   const std::vector<Summary>& blocks() const { return blocks_; }
 
   /// Twice the standard deviation of the averages of mean, standard uncertainty and both ends of the coverage interval
-  /// is at most the tolerance. False before the second block. What stands still is stable.
+  /// is at most the tolerance. False before the second block. What stands still, or
+  /// differs by 1e-12 (of values above 1: of the value), is stable.
   bool stable() const;
 
   /// How far from stable: the largest of these deviations, over the tolerance. 1 or less is stable; infinity before the

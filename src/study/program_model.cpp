@@ -341,13 +341,15 @@ void checkSources(const setup::SetupDocument& document, const Study& study, Diag
   std::vector<std::size_t> all(sampler.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   Diagnostics ofAll;
-  if (hasSetup(document, sampler, estimates, all, ofAll)) return;
-  constexpr std::uint64_t drawn = 10;
+  if (hasSetup(document, sampler, estimates, all, ofAll) &&
+      hasSetup(document, sampler, sampler.draw(0).inputs, all, ofAll))
+    return;
+  constexpr std::uint64_t drawn = 40;
   for (const std::size_t i : all) {
-    Diagnostics mistakes, ignored;
-    bool possible = hasSetup(document, sampler, estimates, {i}, mistakes);
+    Diagnostics mistakes;
+    bool possible = false;
     for (std::uint64_t trial = 0; trial < drawn && !possible; ++trial)
-      possible = hasSetup(document, sampler, sampler.draw(trial).inputs, {i}, ignored = {});
+      possible = hasSetup(document, sampler, sampler.draw(trial).inputs, {i}, mistakes = {});
     if (possible) continue;
     const auto mistake = std::ranges::find(mistakes, Severity::Error, &Diagnostic::severity);
     if (mistake == mistakes.end()) continue;

@@ -222,7 +222,7 @@ private:
       reader.report("quantity", path.error().message, path.error().advice);
       return;
     }
-    if (quantity) checkPlace(reader, *path);
+    if (quantity && !hasPlace(reader, *path)) return;
     bool deviationMissing = false;
     auto kind = readKind(reader, *path, deviationMissing);
     reader.finish();
@@ -248,10 +248,11 @@ private:
   }
 
   /// There must be a place for the number; whether the setup knows it, the first trial shows.
-  void checkPlace(TomlReader& reader, const NumberPath& path) {
+  bool hasPlace(TomlReader& reader, const NumberPath& path) {
     toml::table copy = setup_;
-    if (const auto set = path.set(copy, path.numberIn(setup_).value_or(0)); !set)
-      reader.report("quantity", set.error().message, set.error().advice);
+    const auto set = path.set(copy, path.numberIn(setup_).value_or(0));
+    if (!set) reader.report("quantity", set.error().message, set.error().advice);
+    return set.has_value();
   }
 
   std::optional<Eigen::MatrixXd> readMatrix(TomlReader& reader, std::string_view key, std::size_t size) {

@@ -142,16 +142,14 @@ INSTANTIATE_TEST_SUITE_P(Examples, EveryNumber,
 TEST(WholeNumbers, AreDrawnFromWholeValues) {
   const std::string setup =
       plateSetup("", "[[tool]]\nnumber = 2\nkind = \"mill\"\nlength = 80\nradius = 5\n[tool.cutter]\nteeth = 3\n");
-  const auto ends = [&](const std::string& source) {
-    return studyOfProgram(
-        setup, program(bore(3, 4)),
-        "trials = 12\nsensitivity = \"none\"\n[[source]]\nquantity = \"tool[number=2].cutter.teeth\"\n" + source);
+  const auto study = [](const std::string& source) {
+    return "trials = 12\nsensitivity = \"none\"\n[[source]]\nquantity = \"tool[number=2].cutter.teeth\"\n" + source;
   };
-  EXPECT_EQ(ends("distribution = \"discrete\"\nvalues = [2, 4]\n").finished, 12U);
-  const StudyResult uniform = ends("distribution = \"uniform\"\nhalf_width = 1\n");
-  EXPECT_EQ(uniform.finished, 0U);
-  ASSERT_EQ(uniform.stops.size(), 1U);
-  EXPECT_THAT(uniform.stops.front().why, ::testing::HasSubstr("\"teeth\" in [tool.cutter] must be a whole number"));
+  const std::string measuring = program(bore(3, 4));
+  EXPECT_EQ(studyOfProgram(setup, measuring, study("distribution = \"discrete\"\nvalues = [2, 4]\n")).finished, 12U);
+  const Diagnostics refused = mistakesOfModel(setup, measuring, study("distribution = \"uniform\"\nhalf_width = 1\n"));
+  ASSERT_EQ(refused.size(), 1U);
+  EXPECT_THAT(refused.front().message, ::testing::HasSubstr("\"teeth\" in [tool.cutter] must be a whole number"));
 }
 
 }  // namespace

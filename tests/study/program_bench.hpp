@@ -106,6 +106,20 @@ inline StudyResult studyOfProgram(const std::string& setupText, const std::strin
       *study, table, [&](const Draw& draw) { return model->run(draw); }, run);
 }
 
+/// Why a study whose file can be read cannot begin on this setup; nothing if it can.
+inline Diagnostics mistakesOfModel(const std::string& setupText, const std::string& programText,
+                                   const std::string& studyText) {
+  const TestFolder folder;
+  Diagnostics mistakes;
+  auto document = setup::SetupDocument::parse(setupText, "setup.toml", mistakes);
+  const auto study = parseStudy(studyText, "study.toml", document->table(), mistakes);
+  EXPECT_TRUE(study) << studyText;
+  const bool made = study && ProgramModel::make(folder.file("p.h", programText), std::move(*document), *study, {},
+                                                mistakes) != nullptr;
+  EXPECT_EQ(made, mistakes.empty()) << studyText;
+  return mistakes;
+}
+
 /// The answer with this key.
 inline const Answer& answer(const StudyResult& result, const std::string& key) {
   static const Answer none;

@@ -299,17 +299,8 @@ TEST(ProgramStudy, NamesMeasurandsThatNoResultFits) {
 /// What no setup can have is a mistake of the study, found before the first trial; what some trials cannot have is not.
 TEST(ProgramStudy, RefusesNumbersThatNoSetupHas) {
   const auto mistakesOf = [](const std::string& quantity, const std::string& distribution) {
-    const TestFolder folder;
-    Diagnostics mistakes;
-    auto document = setup::SetupDocument::parse(plateSetup(), "setup.toml", mistakes);
-    const auto study =
-        parseStudy("trials = 5\n" + place + "[[source]]\nquantity = \"" + quantity + "\"\n" + distribution,
-                   "study.toml", document->table(), mistakes);
-    EXPECT_TRUE(study) << quantity;
-    const bool made = study && ProgramModel::make(folder.file("p.h", program(bore(3, 4))), std::move(*document), *study,
-                                                  {}, mistakes) != nullptr;
-    EXPECT_EQ(made, mistakes.empty()) << quantity;
-    return mistakes;
+    return mistakesOfModel(plateSetup(), program(bore(3, 4)),
+                           "trials = 5\n" + place + "[[source]]\nquantity = \"" + quantity + "\"\n" + distribution);
   };
   const std::string uniform = "distribution = \"uniform\"\nminimum = 0.25\nmaximum = 3\n";
   for (const auto& [quantity, why] : std::vector<std::pair<std::string, std::string>>{
@@ -325,6 +316,11 @@ TEST(ProgramStudy, RefusesNumbersThatNoSetupHas) {
     EXPECT_GT(mistakes.front().place.column, 0U);
     EXPECT_FALSE(mistakes.front().advice.empty());
   }
+  // The estimate alone would do.
+  const Diagnostics fractions =
+      mistakesOf("tool[1].number", "distribution = \"normal\"\nmean = 1\nstandard_deviation = 0.001\n");
+  ASSERT_EQ(fractions.size(), 1U);
+  EXPECT_THAT(fractions.front().message, ::testing::HasSubstr("must be a whole number from 1 to 32767"));
   EXPECT_TRUE(mistakesOf("part.pose.y", uniform).empty());
   EXPECT_TRUE(
       mistakesOf("part.feature[2].diameter", "distribution = \"uniform\"\nminimum = -5\nmaximum = 30\n").empty());

@@ -141,6 +141,21 @@ TEST(Adaptive, IsStableWhereBlocksAgree) {
   EXPECT_FALSE(stability.stable());
 }
 
+/// Values that are the same but for the last digits of a double: no number of trials would make those stable.
+TEST(Adaptive, IsStableWhereOnlyTheLastDigitsDiffer) {
+  for (const double value : {0.0, 30.01, 480.0}) {
+    Stability stability(2, 0.95);
+    double digit = 1e-15;
+    for (int i = 0; i < 4; ++i, digit *= -1.7)
+      stability.add(std::vector<double>{value, value * (1 + 1e-15) + digit, value - digit / 3});
+    EXPECT_TRUE(stability.stable()) << value;
+  }
+  Stability nanometre(2, 0.95);
+  nanometre.add(std::vector<double>{30, 30 + 1e-6});
+  nanometre.add(std::vector<double>{30 + 1e-6, 30 + 3e-6});
+  EXPECT_FALSE(nanometre.stable());
+}
+
 /// Probabilities of the normal distribution: 0.5 on a limit, 95 % at 1.6449 standard uncertainties from it.
 TEST(Conformity, IsTheNormalDistributionWithinTheLimits) {
   EXPECT_NEAR(conformanceProbability(10, 0.1, {std::nullopt, 10.0}), 0.5, 1e-12);

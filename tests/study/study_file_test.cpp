@@ -178,6 +178,10 @@ TEST(StudyFile, NamesMistakesWithPlaceAndWayOut) {
   EXPECT_THAT(mistakesIn("[[source]]\nquantity = \"tool[PROB].ball_radius\"\ndistribution = \"normal\"\nmean = 3\n"
                          "standard_deviation = 1\n"),
               ::testing::HasSubstr("no entry of a list is meant"));
+  EXPECT_THAT(
+      mistakesIn("[[source]]\nquantity = \"tool[1].name\"\ndistribution = \"normal\"\nstandard_deviation = 1\n"),
+      ::testing::Not(::testing::HasSubstr("the setup does not write")))
+      << "the setup writes it, but no number";
   EXPECT_THAT(mistakesIn(source + "standard_deviation = 1\n" + source + "standard_deviation = 1\n"),
               ::testing::HasSubstr("distributed twice"));
   EXPECT_THAT(mistakesIn(source + "standard_deviation = 1\n[[measurand]]\nresult = \"Q1\"\ntruth = \"part.pose.q\"\n"),
