@@ -202,7 +202,8 @@ FirstOrder addUncertainties(control::Journal& journal, const simulation::Truth& 
       if (!found || std::abs(*found - uncertainty) > tolerated * uncertainty) done.doubtful.emplace(c, i);
     }
   }
-  if (follows) done.notHeld.emplace_back("the scatter of what earlier cycles have set and later ones measure from");
+  if (follows)
+    done.notHeld.emplace_back("the scatter of what earlier cycles have set or calibrated, and later ones measure by");
   if (lobes) done.notHeld.emplace_back("the lobes of the probe: they act on all touches of a feature together");
   if (hasErrors(truth.errors)) done.notHeld.emplace_back("the errors of the machine");
   if (differ) done.notHeld.emplace_back("which probe has measured: the scatter is that of the one that repeats worst");
