@@ -60,35 +60,15 @@ function(probewright_precompile target kind)
   target_precompile_headers(${target} REUSE_FROM probewright_precompiled_${kind})
 endfunction()
 
-# probewright_library(NAME [LINK targets...] [PRECOMPILED kind]): a static library of all .cpp files below the calling folder.
-function(probewright_library name)
-  cmake_parse_arguments(ARG "" "PRECOMPILED" "LINK" ${ARGN})
-  if(NOT ARG_PRECOMPILED)
-    set(ARG_PRECOMPILED sources)
-  endif()
-  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
-  if(sources)
-    add_library(probewright_${name} STATIC ${sources})
-    target_link_libraries(probewright_${name} PUBLIC probewright_options ${ARG_LINK})
-    probewright_precompile(probewright_${name} ${ARG_PRECOMPILED})
-  else()
-    add_library(probewright_${name} INTERFACE)
-    target_link_libraries(probewright_${name} INTERFACE probewright_options ${ARG_LINK})
-  endif()
-endfunction()
-
-# What takes time in a test is the house; optimizing the tests themselves costs a third of their build.
-set(PROBEWRIGHT_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
-
-# Several tests compiled as one take a third of the time, as most of it goes into templates that they share. Where one of them is
-# changed again and again, files of their own are quicker; each file still stands alone, as a build without this shows.
-option(PROBEWRIGHT_MERGE "Compile the files of tests in groups" OFF)
+# Several files compiled as one take half of the time, tests a third, as most of it goes into templates that they share. Where one of
+# them is changed again and again, files of their own are quicker; each file still stands alone, as a build without this shows.
+option(PROBEWRIGHT_MERGE "Compile files in groups" OFF)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 set(PROBEWRIGHT_MERGE_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/merge_sources.py)
 set(PROBEWRIGHT_SUITES_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/list_suites.py)
 
 # probewright_merge(VARIABLE NAME COUNT): replaces the sources that the variable lists by groups of COUNT of them, if that is
-# asked for. Files with properties of their own, and those that are not tests, stay out.
+# asked for. Files with properties of their own, and those that the preprocessor changes, stay out.
 function(probewright_merge variable name count)
   if(NOT PROBEWRIGHT_MERGE)
     return()
@@ -103,7 +83,8 @@ function(probewright_merge variable name count)
     else()
       get_source_file_property(options ${file} COMPILE_OPTIONS)
       get_source_file_property(definitions ${file} COMPILE_DEFINITIONS)
-      if(options OR definitions OR NOT file MATCHES "_test\\.cpp$")
+      file(STRINGS ${file} instructions LIMIT_COUNT 1 REGEX "^#(define|if|pragma)")
+      if(options OR definitions OR instructions)
         list(APPEND single ${file})
         continue()
       endif()
@@ -119,6 +100,10 @@ function(probewright_merge variable name count)
         COMMAND Python3::Interpreter ${PROBEWRIGHT_MERGE_SCRIPT} ${output} ${group}
         DEPENDS ${PROBEWRIGHT_MERGE_SCRIPT} ${group}
         VERBATIM)
+      if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+        # It takes what another file than the one it compiles declares for a header's.
+        set_source_files_properties(${output} PROPERTIES COMPILE_OPTIONS -Wno-subobject-linkage)
+      endif()
       list(APPEND groups ${output})
       set(group "")
     endif()
@@ -126,13 +111,34 @@ function(probewright_merge variable name count)
   set(${variable} ${groups} ${single} PARENT_SCOPE)
 endfunction()
 
+# probewright_library(NAME [LINK targets...] [PRECOMPILED kind]): a static library of all .cpp files below the calling folder.
+function(probewright_library name)
+  cmake_parse_arguments(ARG "" "PRECOMPILED" "LINK" ${ARGN})
+  if(NOT ARG_PRECOMPILED)
+    set(ARG_PRECOMPILED sources)
+  endif()
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  if(sources)
+    probewright_merge(sources ${name} 8)
+    add_library(probewright_${name} STATIC ${sources})
+    target_link_libraries(probewright_${name} PUBLIC probewright_options ${ARG_LINK})
+    probewright_precompile(probewright_${name} ${ARG_PRECOMPILED})
+  else()
+    add_library(probewright_${name} INTERFACE)
+    target_link_libraries(probewright_${name} INTERFACE probewright_options ${ARG_LINK})
+  endif()
+endfunction()
+
+# What takes time in a test is the house; optimizing the tests themselves costs a third of their build.
+set(PROBEWRIGHT_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
+
 # probewright_test(NAME [EACH] [LINK targets...] [PROPERTIES names and values...]): one test program of all *_test.cpp files in
 # the calling folder; the properties are those of its entries for ctest. An entry is a suite, NAME.SUITE: a process takes longer to
 # begin than most tests to run. With EACH an entry is a test: for those that take long or need something to themselves.
 function(probewright_test name)
   cmake_parse_arguments(ARG "EACH" "" "LINK;PROPERTIES" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
-  probewright_merge(sources ${name}_test 6)
+  probewright_merge(sources ${name}_test 12)
   add_executable(${name}_test ${sources})
   target_include_directories(${name}_test PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   if(PROBEWRIGHT_MERGE)  # what stands beside a test is no longer found beside what is compiled

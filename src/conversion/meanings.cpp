@@ -5,28 +5,27 @@ namespace probewright::conversion {
 namespace {
 
 using control::Along;
-using control::Quantity;
 using control::Role;
 
 std::optional<Meaning> actualOf(const control::Characteristic& of) {
   switch (of.quantity) {
-    case Quantity::Centre:
-    case Quantity::Corner:
+    case control::Quantity::Centre:
+    case control::Quantity::Corner:
       if (of.along == Along::First) return Meaning::Centre1;
       if (of.along == Along::Second) return Meaning::Centre2;
       return std::nullopt;
-    case Quantity::Diameter:
-    case Quantity::Width:
+    case control::Quantity::Diameter:
+    case control::Quantity::Width:
       return Meaning::Size1;
-    case Quantity::Length:
+    case control::Quantity::Length:
       if (of.along == Along::First) return Meaning::Size1;
       if (of.along == Along::Second) return Meaning::Size2;
       return std::nullopt;
-    case Quantity::Coordinate:
+    case control::Quantity::Coordinate:
       if (of.along == Along::Measuring) return Meaning::Coordinate;
       return std::nullopt;
-    case Quantity::Angle:
-    case Quantity::Projection:
+    case control::Quantity::Angle:
+    case control::Quantity::Projection:
       if (of.along == Along::Third || of.along == Along::First || of.along == Along::X || of.along == Along::A)
         return Meaning::Angle;
       if (of.along == Along::Second || of.along == Along::Y || of.along == Along::B) return Meaning::Angle2;

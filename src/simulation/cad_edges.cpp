@@ -22,7 +22,7 @@ constexpr double kOurs = 1e-7;       ///< mm
 
 /// By how much the curve of an edge leaves the place that its curve on a surface gives at the same parameter; nothing
 /// of that is known where there is no such curve: 0.
-double deviationOf(const TopoDS_Edge& edge) {
+double endsApart(const TopoDS_Edge& edge) {
   double first = 0, last = 0, from = 0, to = 0;
   const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
   Handle(Geom2d_Curve) onSurface;
@@ -48,7 +48,7 @@ bool isApproximated(const TopoDS_Edge& edge) {
   const auto spline = Handle(Geom_BSplineCurve)::DownCast(BRep_Tool::Curve(edge, first, last));
   if (spline.IsNull() || spline->IsRational() || !BRep_Tool::SameParameter(edge)) return false;
   if (std::abs(BRep_Tool::Tolerance(edge) - kOfReaders) > 1e-12) return false;
-  const double deviation = deviationOf(edge);
+  const double deviation = endsApart(edge);
   return deviation > kOurs && deviation <= 1.001 * kOfReaders;
 }
 
@@ -77,9 +77,9 @@ void sharpenEdges(const TopoDS_Shape& shape) {
       continue;
     }
     if (!isApproximated(edge)) continue;
-    const double deviation = deviationOf(edge);
+    const double deviation = endsApart(edge);
     builder.UpdateEdge(edge, Handle(Geom_Curve)(), place, 0);
-    if (buildCurve(edge, kOurs) && deviationOf(edge) < deviation) continue;
+    if (buildCurve(edge, kOurs) && endsApart(edge) < deviation) continue;
     builder.UpdateEdge(edge, before, place, 0);
   }
 }

@@ -35,7 +35,7 @@ std::vector<double> smoothParts(const CadEdge& edge) {
 }
 
 /// How far the corners of a triangle lie from where its parameters are on a plane: the mesher may have mixed them up.
-double deviationOf(const CadElement& element, const AnalyticSurface& plane) {
+double distanceFrom(const AnalyticSurface& plane, const CadElement& element) {
   double deviation = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vector2& uv = element.parameters[k];
@@ -157,7 +157,7 @@ std::vector<CadElement> faceElements(const CadFace& exact, const TopoDS_Face& fa
     element.corners = {a.point, b.point, c.point};
     element.parameters = {a.parameters, b.parameters, c.parameters};
     const double deviation =
-        flat ? deviationOf(element, exact.forms.sheets.front()) : deviationOf(element, *exact.surface);
+        flat ? distanceFrom(exact.forms.sheets.front(), element) : deviationOf(element, *exact.surface);
     area += areaInParameters(element);
     // Between a bent border and its chord no triangle lies.
     element.growth = kLeastGrowth + 1.5 * std::max(deviation, straight ? 0.0 : 1.5 * deflection);

@@ -116,8 +116,8 @@ Faces facesOf(const TopoDS_Shape& shape) {
 }
 
 /// The exact faces and edges of a shape.
-CadModel exactModel(const TopoDS_Shape& shape, double deflection, std::vector<TrimmedDomain> domains,
-                    const std::stop_token& stop) {
+CadModel modelOf(const TopoDS_Shape& shape, double deflection, std::vector<TrimmedDomain> domains,
+                 const std::stop_token& stop) {
   BRepLib::BuildCurves3d(shape);
   const Faces faces = facesOf(shape);
   if (!domains.empty() && domains.size() != faces.faces.size())
@@ -176,7 +176,7 @@ Bounds boundsOf(const CadModel& model) {
 
 }  // namespace
 
-CadModel exactModel(const TopoDS_Shape& shape, double deflection) { return exactModel(shape, deflection, {}, {}); }
+CadModel exactModel(const TopoDS_Shape& shape, double deflection) { return modelOf(shape, deflection, {}, {}); }
 
 void appendShape(std::string& bytes, const CadModel& model) {
   std::ostringstream brep;
@@ -205,7 +205,7 @@ CadModel exactModel(std::string_view bytes, double deflection, const std::stop_t
     domain = std::move(*taken);
   }
   if (!bytes.empty()) throw refuse();
-  return exactModel(shape, deflection, std::move(domains), stop);
+  return modelOf(shape, deflection, std::move(domains), stop);
 }
 
 void addElements(CadModel& model) {

@@ -121,7 +121,7 @@ std::optional<double> NumberPath::numberIn(const toml::table& root) const {
 }
 
 Result<void> NumberPath::set(toml::table& root, double value) const {
-  const auto missing = [&](std::string_view what) {
+  const auto noPlace = [&](std::string_view what) {
     return fail(fmt::format("the setup has no place for {}: {}", text_, what),
                 "write the entry in the setup, or count the entries again");
   };
@@ -130,14 +130,14 @@ Result<void> NumberPath::set(toml::table& root, double value) const {
     const bool last = i + 1 == steps_.size();
     if (toml::array* list = node->as_array()) {
       const auto place = placeIn(*list, steps_[i]);
-      if (!place) return missing("no entry of a list is meant");
+      if (!place) return noPlace("no entry of a list is meant");
       if (std::holds_alternative<std::string>(steps_[i])) {
         node = list->get(*place);
-        if (!node->is_table()) return missing("the list has no keys");
+        if (!node->is_table()) return noPlace("the list has no keys");
         continue;
       }
       if (last) {
-        if (!list->get(*place)->is_number()) return missing("the entry of the list is not a number");
+        if (!list->get(*place)->is_number()) return noPlace("the entry of the list is not a number");
         const auto there = list->cbegin() + static_cast<std::ptrdiff_t>(*place);
         if (isWhole(value)) {
           list->replace(there, static_cast<std::int64_t>(value));
@@ -152,10 +152,10 @@ Result<void> NumberPath::set(toml::table& root, double value) const {
     }
     toml::table* table = node->as_table();
     const auto* key = std::get_if<std::string>(&steps_[i]);
-    if (table == nullptr || key == nullptr) return missing("there is no list or table on the way to it");
+    if (table == nullptr || key == nullptr) return noPlace("there is no list or table on the way to it");
     if (last) {
       toml::node* there = table->get(*key);
-      if (there != nullptr && !there->is_number()) return missing(fmt::format("\"{}\" is not a number", *key));
+      if (there != nullptr && !there->is_number()) return noPlace(fmt::format("\"{}\" is not a number", *key));
       if (isWhole(value)) {
         table->insert_or_assign(*key, static_cast<std::int64_t>(value));
       } else {
@@ -164,13 +164,13 @@ Result<void> NumberPath::set(toml::table& root, double value) const {
       return {};
     }
     if (!table->contains(*key)) {
-      if (!std::holds_alternative<std::string>(steps_[i + 1])) return missing(fmt::format("there is no \"{}\"", *key));
+      if (!std::holds_alternative<std::string>(steps_[i + 1])) return noPlace(fmt::format("there is no \"{}\"", *key));
       table->insert(*key, toml::table{});
     }
     node = table->get(*key);
     ++i;
   }
-  return missing("it names a table");
+  return noPlace("it names a table");
 }
 
 }  // namespace probewright::study

@@ -151,7 +151,7 @@ json answerJson(const Answer& answer, const StudyResult& result) {
   return object;
 }
 
-const char* nameOf(StudyEnd end) {
+const char* wordOf(StudyEnd end) {
   switch (end) {
     case StudyEnd::Stable:
       return "stable";
@@ -222,7 +222,7 @@ json studyJson(const StudyResult& result, const StudyInfo& info) {
             {"seed", result.study.seed},
             {"coverage", result.study.coverage},
             {"guardFactor", result.study.guardFactor}}},
-          {"end", nameOf(result.end)},
+          {"end", wordOf(result.end)},
           {"trials", result.trials},
           {"finished", result.finished},
           {"sources", std::move(sources)},

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view heading = "# probewright trials 1 ";
+constexpr std::string_view firstWords = "# probewright trials 1 ";
 constexpr std::array<const char*, 4> endNames = {"finished", "alarm", "refused", "cancelled"};
 constexpr std::size_t fixedColumns = 3;
 constexpr const char* noStudyToGoOnWith = "leave out --resume, or name the folder of the interrupted study";
@@ -105,9 +105,9 @@ Result<TrialReader> TrialReader::open(const fs::path& path, std::string_view mar
     failed.value().advice = noStudyToGoOnWith;
     return failed;
   }
-  if (!std::getline(reader.file_, line) || !line.starts_with(heading))
+  if (!std::getline(reader.file_, line) || !line.starts_with(firstWords))
     return fail({path.string(), 1, 1}, "this is not the file of a study's trials", noStudyToGoOnWith);
-  if (line.substr(heading.size()) != mark)
+  if (line.substr(firstWords.size()) != mark)
     return fail({path.string(), 1, 1},
                 "these trials are of another study: program, setup, sources or seed are different",
                 "leave out --resume to begin anew");
@@ -198,7 +198,7 @@ bool TrialWriter::learn(std::span<const Outcome> outcomes) {
 }
 
 std::string TrialWriter::heading() const {
-  std::string text = fmt::format("{}{}\ntrial,end,why", study::heading, mark_);
+  std::string text = fmt::format("{}{}\ntrial,end,why", firstWords, mark_);
   for (const std::string& source : columns_.sources)
     text += "," + inQuotes(std::string(sourceName) + source);
   for (const std::string& key : columns_.results)
@@ -288,9 +288,9 @@ std::optional<Diagnostic> whyNotTrials(const fs::path& path) {
   };
   if (!fs::is_regular_file(path, error)) return foreign();
   std::ifstream file(path, std::ios::binary);
-  std::string first(heading.size(), ' ');
+  std::string first(firstWords.size(), ' ');
   file.read(first.data(), static_cast<std::streamsize>(first.size()));
-  return file && first == heading ? std::nullopt : std::optional(foreign());
+  return file && first == firstWords ? std::nullopt : std::optional(foreign());
 }
 
 }  // namespace probewright::study

@@ -200,8 +200,8 @@ TEST(Documents, ShowCodeThatIsTaken) {
       // Lines of the protocol of machine adapters.
       std::istringstream lines(block.text);
       for (std::string line; std::getline(lines, line);) {
-        const auto json = nlohmann::json::parse(line.substr(3), nullptr, false);
-        EXPECT_TRUE(json.is_object() && (json.contains("id") || json.contains("alive"))) << line;
+        const auto message = nlohmann::json::parse(line.substr(3), nullptr, false);
+        EXPECT_TRUE(message.is_object() && (message.contains("id") || message.contains("alive"))) << line;
       }
       ++taken;
     } else if (block.text.starts_with("CYCLE150")) {

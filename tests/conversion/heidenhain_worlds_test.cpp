@@ -3,10 +3,8 @@
 
 /// Klartext programs with one touch probe cycle, their SINUMERIK twins and the twins' twins, in random worlds; on both
 /// controls, in both units, with each tool axis.
-namespace probewright::testing_support {
+namespace probewright::testing_support::heidenhain {
 namespace {
-
-using namespace heidenhain;
 
 /// The program without the parameters that the control does not have; there circles are touched four times. Empty if
 /// the control lacks a cycle.
@@ -144,4 +142,4 @@ INSTANTIATE_TEST_SUITE_P(ConvertPatterns, AnyWorld,
                          nameOf);
 
 }  // namespace
-}  // namespace probewright::testing_support
+}  // namespace probewright::testing_support::heidenhain

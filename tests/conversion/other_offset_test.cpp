@@ -3,10 +3,9 @@
 #include "conversion/sinumerik_cases.hpp"
 
 /// Measuring cycles that correct a zero offset other than the one in effect.
-namespace probewright::testing_support {
+namespace probewright::testing_support::sinumerik_programs {
 namespace {
 
-using namespace sinumerik_programs;
 using ::testing::HasSubstr;
 
 struct Task {
@@ -136,4 +135,4 @@ TEST(ConvertOffsets, TheLastOneIsCorrectedWhileItIsInEffectOnly) {
 }
 
 }  // namespace
-}  // namespace probewright::testing_support
+}  // namespace probewright::testing_support::sinumerik_programs

@@ -3,10 +3,8 @@
 
 /// SINUMERIK programs and their Klartext twins, in random worlds; for both HEIDENHAIN controls, in both units, in each
 /// plane.
-namespace probewright::testing_support {
+namespace probewright::testing_support::sinumerik_programs {
 namespace {
-
-using namespace sinumerik_programs;
 
 /// The program in inches: all lengths, as the catalogue knows them, divided by 25.4.
 std::string inInches(const std::string& program) {
@@ -144,4 +142,4 @@ TEST(ConvertDirections, ThatACallLeavesOpenLeadToTheSetValue) {
 }
 
 }  // namespace
-}  // namespace probewright::testing_support
+}  // namespace probewright::testing_support::sinumerik_programs

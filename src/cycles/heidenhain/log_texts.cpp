@@ -9,7 +9,7 @@
 namespace probewright::cycles::heidenhain {
 namespace {
 
-constexpr LogFrame english{
+constexpr LogFrame englishLog{
     .title = "Measuring Log for Probing Cycle {} {}",
     .date = "Date:",
     .time = "Time:",
@@ -23,7 +23,7 @@ constexpr LogFrame english{
     .end = "End of measuring log",
 };
 
-constexpr LogFrame capitals{
+constexpr LogFrame capitalLog{
     .title = "MEASURING LOG FOR PROBING CYCLE {}: {}",
     .date = "DATE:",
     .time = "TIME:",
@@ -37,7 +37,7 @@ constexpr LogFrame capitals{
     .end = "END OF MEASURING LOG",
 };
 
-constexpr LogFrame russian{
+constexpr LogFrame russianLog{
     .title = "Протокол измерений цикла {} {}",
     .date = "Дата:",
     .time = "Время:",
@@ -51,7 +51,7 @@ constexpr LogFrame russian{
     .end = "Окончание протокола измерения",
 };
 
-constexpr LogFrame swedish{
+constexpr LogFrame swedishLog{
     .title = "Mätprotokoll avkännarcykel {} {}",
     .date = "Datum:",
     .time = "Klockan:",
@@ -65,7 +65,7 @@ constexpr LogFrame swedish{
     .end = "Mätprotokoll slut",
 };
 
-constexpr LogFrame german{
+constexpr LogFrame germanLog{
     .title = "Messprotokoll Antastzyklus {} {}",
     .date = "Datum:",
     .time = "Uhrzeit:",
@@ -271,17 +271,17 @@ constexpr std::array germanTerms = {
 const LogFrame& logFrame(DialogLanguage language) {
   switch (language) {
     case DialogLanguage::Russian:
-      return russian;
+      return russianLog;
     case DialogLanguage::Swedish:
-      return swedish;
+      return swedishLog;
     case DialogLanguage::German:
-      return german;
+      return germanLog;
     case DialogLanguage::English:
     case DialogLanguage::Chinese:
     case DialogLanguage::Polish:
       break;
   }
-  return english;
+  return englishLog;
 }
 
 bool hasEnglishLogs(DialogLanguage language) {
@@ -289,7 +289,7 @@ bool hasEnglishLogs(DialogLanguage language) {
          language == DialogLanguage::Polish;
 }
 
-const LogFrame& capitalLogFrame() { return capitals; }
+const LogFrame& capitalLogFrame() { return capitalLog; }
 
 std::string capitalTerm(std::string_view term, std::span<const CapitalTerm> own) {
   const auto found = std::ranges::find(own, term, &CapitalTerm::usual);

@@ -17,12 +17,12 @@ using control::sinumerik::firstDatumOfAxis;
 using control::sinumerik::firstDatumOfOffset;
 
 /// Six decimals, as the control has them; never -0.
-std::string number(double value) { return formatFixed(value, 6); }
+std::string sixDecimals(double value) { return formatFixed(value, 6); }
 
 std::string vectorLine(int first, int carrier, const Vector3& vector, std::string_view name) {
   std::string line;
   for (int i = 0; i < 3; ++i)
-    line += fmt::format("$TC_CARR{}[{}]={} ", first + i, carrier, number(vector[i]));
+    line += fmt::format("$TC_CARR{}[{}]={} ", first + i, carrier, sixDecimals(vector[i]));
   return fmt::format("{};{}xyz", line, name);
 }
 
@@ -96,7 +96,7 @@ std::string kinematicsProgram(const DataStore& store, int number, const ToolCarr
     if (machineData[vector].name == nullptr) continue;
     for (int i = 0; i < 3; ++i)
       text += fmt::format("N{} {}[{}]={}\n", machineData[vector].number, machineData[vector].name, i,
-                          sinumerik::number(now.offset[vector][i]));
+                          sixDecimals(now.offset[vector][i]));
   }
   text += ";before the measurement\n";
   for (const std::string& line : vectorLines(number, before))
@@ -110,8 +110,8 @@ std::string kinematicsScreen(int number, const ToolCarrier& before, const ToolCa
   const auto row = [&](const std::string& name, const Vector3& was, const Vector3& is, double difference,
                        const char* unit) {
     if (was.isZero() && is.isZero()) return;
-    text += fmt::format("{:<4}{:>14}{:>14}{:>14}{:>14} {}\n", name, sinumerik::number(is.x()),
-                        sinumerik::number(is.y()), sinumerik::number(is.z()), sinumerik::number(difference), unit);
+    text += fmt::format("{:<4}{:>14}{:>14}{:>14}{:>14} {}\n", name, sixDecimals(is.x()), sixDecimals(is.y()),
+                        sixDecimals(is.z()), sixDecimals(difference), unit);
   };
   for (std::size_t i = 0; i < 4; ++i)
     row(fmt::format("I{}", i + 1), before.offset[i], now.offset[i], (now.offset[i] - before.offset[i]).norm(), "mm");
