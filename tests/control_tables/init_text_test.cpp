@@ -226,6 +226,8 @@ TEST(InitText, NumbersSurvive) {
   for (int i = 0; i < 2000; ++i)
     EXPECT_EQ(again.store.number("R", {i}), values[static_cast<std::size_t>(i)]);
   EXPECT_EQ(parseNumber("'B101'"), 5);
+  EXPECT_EQ(parseNumber("'H1aF'"), 0x1af);
+  EXPECT_EQ(parseNumber("'hAf'"), 0xaf);
   EXPECT_EQ(parseNumber("+2.5EX2"), 250);
   EXPECT_EQ(parseNumber("1ex-7"), 1e-7);
   for (const char* bad : {"", "EX", "1EX", "'H'", "''", "'", "0x10", "1e5", "nan", "inf", "+-1"}) {

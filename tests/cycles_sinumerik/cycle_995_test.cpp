@@ -67,7 +67,16 @@ TEST(Cycle995, FindsHowTheSpindleLeans) {
     // Back over the ball, the measuring path above its pole.
     EXPECT_NEAR(bench.control.channel.position().x(), 0, 1e-6);
     EXPECT_NEAR(bench.control.channel.position().y(), 0, 1e-6);
+    const double nominal = 2 * radius - (find ? 0.05 : 0);
+    EXPECT_NEAR(bench.control.channel.position().z(), ball.z() - table + nominal / 2 + 5, 0.02) << world;
     EXPECT_NEAR(bench.ovr(15), bench.ovr(11) + bench.ovr(19), 1e-9);
+    // The shaft, where the ball of the first measurement is expected.
+    EXPECT_NEAR(bench.ovr(22), bench.ovr(14), 1e-9);
+    for (int axis = 0; axis < 2; ++axis) {
+      EXPECT_NEAR(bench.ovr(23 + axis), bench.ovr(15 + axis), 1e-9);
+      EXPECT_NEAR(bench.ovr(25 + axis), bench.ovr(15 + axis) - deviation[axis], bound);
+      EXPECT_NEAR(bench.ovr(27 + axis), -deviation[axis], bound);
+    }
   }
 }
 

@@ -140,6 +140,21 @@ TEST_P(TablesAsOne, TheScreenFollowsTheProgram) {
   EXPECT_THAT(mill.places.front().messages.front(), HasSubstr("G54: X-5.0000 Y7.0000 Z-300.0000"));
 }
 
+/// The machine's table has one number for geometry and wear together.
+TEST(OwnTools, HoldTheWearOfSinumerikTools) {
+  MillWithTables mill;
+  mill.own.tools = {{1, 100, 5.8}, {2, 81.5, 12}};
+  const control::Beliefs beliefs = beliefsOf(control::ControlKind::Sinumerik840Dsl);
+  const RunOutcome outcome = runText(
+      "P.MPF", "G17 G54 G90\n$TC_DP12[2,1]=0.25\n$TC_DP15[2,1]=-0.1\nT2 M6 D1\nG0 X1 Y2 Z3\nM30\n", beliefs, mill, {});
+  EXPECT_EQ(outcome.info.exit, records::ExitState::Good) << outcome.info.exitText;
+  EXPECT_NEAR(mill.position()[2], -400 + 3 + 81.5 + 0.25, 1e-9);
+  ASSERT_EQ(mill.kept.tools.size(), 1U);
+  EXPECT_EQ(mill.kept.tools[0].number, 2);
+  EXPECT_NEAR(mill.kept.tools[0].length, 81.75, 1e-9);
+  EXPECT_NEAR(mill.kept.tools[0].diameter, 2 * (6 - 0.1), 1e-9);
+}
+
 INSTANTIATE_TEST_SUITE_P(Vendors, TablesAsOne,
                          testing::Values(Vendor{control::ControlKind::TNC640, "P.H", klartext},
                                          Vendor{control::ControlKind::Sinumerik840Dsl, "P.MPF", sinumerik}),

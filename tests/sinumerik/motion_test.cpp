@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -236,6 +237,10 @@ TEST(SinumerikMotion, ArcsStayOnTheirCircle) {
   EXPECT_EQ(world.alarm("G0 X10 Y0\nF100 G2 X0 Y11 I-10 J0\n"), "14040");
   EXPECT_EQ(world.alarm("G0 X10 Y0\nF100 G2 X-20 Y0 CR=5\n"), "14040");
   EXPECT_EQ(world.alarm("G0 X10 Y0\nF100 G2 X-20 Y0\n"), "14040");
+  for (const char* opening : {"0", "360", "-90", "400"}) {
+    EXPECT_EQ(world.alarm(fmt::format("G0 X10 Y0\nF100 G3 X-10 Y0 AR={}\n", opening)), "14040") << opening;
+    EXPECT_EQ(world.alarm(fmt::format("G0 X10 Y0\nF100 G3 I-10 J0 AR={}\n", opening)), "14040") << opening;
+  }
 }
 
 TEST(SinumerikMotion, ATangentialArcLeavesInTheLastDirection) {

@@ -58,6 +58,9 @@ PathElement PathMotion::arcAboutCentre(const Words& words, bool clockwise, Vecto
   const Vector3 chord = inPlane(to - from);
   const double sense = clockwise ? -1 : 1;
   const bool anyCentre = words.centre[0] || words.centre[1] || words.centre[2];
+  if (words.opening && !(*words.opening > 0 && *words.opening < 360))
+    throw Alarm("14040", fmt::format("the opening angle AR={} lies outside 0 to 360 degrees", *words.opening),
+                "write a full circle with its end point and I, J, K, and choose the direction with G2 or G3");
   if (words.radius || (words.opening && !anyCentre)) {
     if (chord.norm() < 1e-9)
       throw Alarm("14040", "an arc with CR or AR cannot end where it begins", "write a full circle with I, J, K");
@@ -67,8 +70,6 @@ PathElement PathMotion::arcAboutCentre(const Words& words, bool clockwise, Vecto
       radius = std::abs(*words.radius);
       large = *words.radius < 0;
     } else {
-      if (!(*words.opening > 0 && *words.opening < 360))
-        throw Alarm("14040", fmt::format("the opening angle AR={} lies outside 0 to 360 degrees", *words.opening));
       radius = chord.norm() / 2 / std::sin(radiansFromDegrees(*words.opening) / 2);
       large = *words.opening > 180;
     }
