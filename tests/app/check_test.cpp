@@ -197,7 +197,9 @@ TEST(Check, KnowsToolsAndPresetsOfASetup) {
                                 "4 TOOL CALL \"NOTHERE\" Z\n5 TOOL CALL 0 Z\n6 TOOL CALL Q5 Z\n"
                                 "7 CYCL DEF 247 PRESETTING ~\nQ339=+3\n8 CYCL DEF 247 PRESETTING ~\nQ339=+1\n"
                                 "9 PRESET SELECT #7\n10 TCH PROBE 441 FAST PROBING ~\nQ396=+0 ~\nQ397=+0 ~\nQ399=+1 ~\n"
-                                "Q400=+0\n11 END PGM A MM\n",
+                                "Q400=+0\n11 TCH PROBE 427 MEASURE COORDINATE ~\nQ263=+0 ~\nQ264=+0 ~\nQ261=+0 ~\n"
+                                "Q320=+0 ~\nQ272=+1 ~\nQ267=+1 ~\nQ260=+50 ~\nQ281=+0 ~\nQ288=+1 ~\nQ289=-1 ~\n"
+                                "Q309=+0 ~\nQ330= \"FARAWAY\"\n12 END PGM A MM\n",
                                 tnc);
   EXPECT_EQ(klartext.exit, 2);
   EXPECT_THAT(klartext.errors, HasSubstr("a.h:3:1: error: the setup has no tool 9\n"));
@@ -205,6 +207,8 @@ TEST(Check, KnowsToolsAndPresetsOfASetup) {
   EXPECT_THAT(klartext.errors, HasSubstr("the setup has 1 PROBE"));
   EXPECT_THAT(klartext.errors, HasSubstr("a.h:10:1: error: the setup has no preset 1\n"));
   EXPECT_THAT(klartext.errors, HasSubstr("a.h:12:1: error: the setup has no preset 7\n"));
+  EXPECT_THAT(klartext.errors, HasSubstr("a.h:30:8: error: the setup has no tool FARAWAY\n    Q330= \"FARAWAY\"\n"))
+      << "at its place in a call of many lines";
   EXPECT_THAT(klartext.errors, Not(HasSubstr("no tool 1\n")));
   EXPECT_THAT(klartext.errors, Not(HasSubstr("no tool 0\n")));
   EXPECT_THAT(klartext.errors, Not(HasSubstr("no preset 3\n")));

@@ -111,20 +111,24 @@ TEST(Inspection, CorrectsTurningToolsSoThatTheNextPartIsRight) {
     std::string text;
     if (cycle == 427) {
       measured = dice.whole(0, 1);
-      // A turned face or cylinder that the tip's error has moved.
+      // A turned face, cylinder or bore that the tip's error has moved.
       // On either side of the turning axis.
       const double side = measured == 0 && dice.coin() ? -1 : 1;
+      const bool bored = measured == 0 && dice.coin();
       const double nominal = measured == 0 ? side * 40 : 0;
       const double actual = nominal + side * world.missing[measured];
-      const Vector3 least(side < 0 ? actual : -40, -40, -40);
-      const Vector3 greatest(measured == 0 && side > 0 ? actual : 40, 40, measured == 0 ? 0 : actual);
+      const double other = actual + (bored ? side : -side) * 60;
+      const double sense = bored ? side : -side;
+      const bool turned = measured == 0;
+      const Vector3 least(turned ? std::min(actual, other) : -40, -40, -70);
+      const Vector3 greatest(turned ? std::max(actual, other) : 40, 40, turned ? 0 : actual);
       world.bench.part(simulation::Box(least, greatest), pose({0, 0, -400}));
       text = blocks(with({{263, measured == 0 ? nominal : 0},
                           {264, 0},
                           {261, measured == 0 ? -10 : nominal},
                           {320, 0},
                           {272, measured == 0 ? 1 : 3},
-                          {267, -side},
+                          {267, sense},
                           {260, 30},
                           {281, 0},
                           {288, 0},

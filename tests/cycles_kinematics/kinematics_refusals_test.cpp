@@ -67,7 +67,8 @@ TEST(KinematicsRefusals, OfCycles452And453) {
     EXPECT_EQ(refusing.alarm(number, {}, "CYCL DEF 10.0 ROTATION\nCYCL DEF 10.1 ROT+5\n"),
               "Coordinate transformation not permitted");
     EXPECT_EQ(refusing.alarm(number, {}, "L C+10 R0 FMAX\n", {{"mStrobeRotAxPos", 40}}), "Rotary axes not at 0");
-    EXPECT_EQ(refusing.alarm(number, {}, "", {{"mStrobeRotAxPos", 940}}), "M function missing");
+    for (const double function : {0, 940})
+      EXPECT_EQ(refusing.alarm(number, {}, "", {{"mStrobeRotAxPos", function}}), "M function missing") << function;
     refusing.world.bench.setup.beliefs.kinematics["B"].hirthGrid = 3;
     const Ran hirth = refusing.run(number);
     EXPECT_EQ(hirth.alarm(), "Cycle parameter wrong");

@@ -119,6 +119,7 @@ TEST(ProgramName, IsTheFileWithoutFolderAndEnding) {
   EXPECT_EQ(programName("parts/Ring.H"), "Ring");
   EXPECT_EQ(programName("TNC:\\PARTS\\RING.V2.H"), "RING.V2");
   EXPECT_EQ(programName("L100"), "L100");
+  EXPECT_EQ(programName("parts/.H"), ".H");
 }
 
 }  // namespace

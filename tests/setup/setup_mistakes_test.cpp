@@ -61,6 +61,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "s.toml:4:1: error: unknown key \"depth\" in [[part.feature]]"},
         Mistake{"[[part.feature]]\nshape = \"fillet\"\nradius = 5\nedges = [1]",
                 "s.toml:4:9: error: \"edges\" in [[part.feature]] must be a list of points"},
+        Mistake{"[[part.feature]]\nshape = \"fillet\"\nradius = 5\nedges = [[0, 0, inf]]",
+                "s.toml:4:9: error: \"edges\" in [[part.feature]] must be a list of points"},
+        Mistake{"[[part.feature]]\nshape = \"fillet\"\nradius = 5\nedges = [[0, \"top\", 0]]",
+                "s.toml:4:9: error: \"edges\" in [[part.feature]] must be a list of points"},
         Mistake{"[[fixture]]\n[[fixture.feature]]\nshape = \"hole\"\ndiameter = 5\n[[fixture.feature.pattern]]\n"
                 "kind = \"linear\"\ncount = 0\nspacing = [1, 0, 0]",
                 "s.toml:7:9: error: \"count\" in [[fixture.feature.pattern]] must be a whole number from 1 to 1000"},

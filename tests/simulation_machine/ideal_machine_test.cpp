@@ -287,6 +287,23 @@ TEST(IdealMachine, HeadMovesFindContactOnTheirArc) {
       << "the shank points from the ball to the swivel axis";
 }
 
+TEST(IdealMachine, ItsPathTellsWhenASwingingHeadStoodWhere) {
+  VirtualMachine machine(perfectWorld("mill5-head-table"));
+  machine.changeTool({1, ""});
+  ASSERT_EQ(machine.move(positions({0, 0, -100, 0, 0}), Feed::rapidTraverse()).end, MoveEnd::Reached);
+  const double start = machine.seconds();
+  ASSERT_EQ(machine.move(positions({0, 0, -100, 60, 0}), Feed::at(600)).end, MoveEnd::Reached);
+  const double duration = machine.seconds() - start;
+  int between = 0;
+  for (const PathPoint& point : machine.path().points) {
+    const double swung = degreesFromRadians(std::atan2(point.shank.x(), point.shank.z()));
+    if (swung < 5 || swung > 55) continue;
+    ++between;
+    EXPECT_NEAR(point.seconds - start, duration * swung / 60, 0.02 * duration) << swung;
+  }
+  EXPECT_GT(between, 5);
+}
+
 TEST(IdealMachine, LatheProbesTheTurnedDiameterInItsRadius) {
   // A probe that lies across the turning axis: its shank points to the turret in +X.
   Truth truth = perfectWorld("lathe2c");

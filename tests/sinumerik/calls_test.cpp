@@ -121,7 +121,9 @@ TEST(SinumerikCalls, CheckNamesWhatIsWrongWithACall) {
                                                   "MCALL NOTHING(1)\n"
                                                   "PCALL /_N_WKS_DIR/_N_A_WPD/_N_GONE_SPF(3)\n"
                                                   "CYCLE9777(1)\n"
-                                                  "MCALL\n");
+                                                  "MCALL\n"
+                                                  "PCALL /_N_WKS_DIR/_N_A_WPD/_N_UNENDED(3)\n"
+                                                  "PCALL /_N_WKS_DIR/_N_A_WPD/_N_AB(3)\n");
   EXPECT_EQ(messagesOf(check(*program, {&library, {}})),
             (std::vector<std::string>{
                 "1:1 argument 2 of SUB is missing: the VAR parameter RESULT needs a variable",
@@ -132,6 +134,8 @@ TEST(SinumerikCalls, CheckNamesWhatIsWrongWithACall) {
                 "6:7 there is no program and no cycle NOTHING",
                 "7:7 there is no program GONE",
                 "8:1 there is no program and no cycle CYCLE9777",
+                "10:7 there is no program UNENDED",
+                "11:7 there is no program AB",
             }));
 }
 

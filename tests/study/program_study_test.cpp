@@ -296,6 +296,15 @@ TEST(ProgramStudy, NamesMeasurandsThatNoResultFits) {
   EXPECT_THAT(format(result.diagnostics.front()), ::testing::HasSubstr("\"Q999\""));
 }
 
+/// Without the place of its cycle a name is enough where one cycle has such a result.
+TEST(ProgramStudy, SaysWhereAMeasurandIsMoreThanOneResult) {
+  const std::string study = "trials = 2\nsensitivity = \"none\"\n[[measurand]]\nresult = \"Q153\"\n" + place;
+  EXPECT_TRUE(studyOfProgram(plateSetup(), program(bore(3, 4)), study).diagnostics.empty());
+  const StudyResult two = studyOfProgram(plateSetup(), program(bore(3, 4) + bore(4, 4)), study);
+  ASSERT_EQ(two.diagnostics.size(), 1U);
+  EXPECT_THAT(format(two.diagnostics.front()), ::testing::HasSubstr("2 results of the program are called \"Q153\""));
+}
+
 /// What no setup can have is a mistake of the study, found before the first trial; what some trials cannot have is not.
 TEST(ProgramStudy, RefusesNumbersThatNoSetupHas) {
   const auto mistakesOf = [](const std::string& quantity, const std::string& distribution) {
