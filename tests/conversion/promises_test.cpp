@@ -29,7 +29,7 @@ PlantedPart blockWithHole(double diameter, const Vector3& off = Vector3::Zero())
   return part;
 }
 
-std::string inspectHole(double nominal, double upper, double lower) {
+std::string inspectHole(double nominal, double upper, double lower, double centre1 = 0, double centre2 = 0) {
   return probe(421, {{273, 0},
                      {274, 0},
                      {262, nominal},
@@ -41,8 +41,8 @@ std::string inspectHole(double nominal, double upper, double lower) {
                      {301, 0},
                      {275, upper},
                      {276, lower},
-                     {279, 0},
-                     {280, 0},
+                     {279, centre1},
+                     {280, centre2},
                      {281, 0},
                      {309, 0},
                      {330, 0},
@@ -52,6 +52,22 @@ std::string inspectHole(double nominal, double upper, double lower) {
 
 std::string sinumerikProgram(const std::string& blocks) {
   return "G17 G90 G710\nT1 M6 D1\nG54\nG0 Z100\n" + blocks + "M30\n";
+}
+
+/// The cycle of the other control does not judge the place of a hole.
+TEST(ConvertPromises, TellsThatTheCentreIsJudgedByTheProgram) {
+  struct Case {
+    double centre1, centre2;
+    bool told;
+  };
+  for (const Case& each : {Case{0, 0, false}, {0.1, 0, true}, {0, 0.1, true}, {0.1, 0.2, true}}) {
+    const conversion::Conversion there =
+        toSinumerik(klartextProgram(inspectHole(40, 0, 0, each.centre1, each.centre2)));
+    const bool told = std::ranges::any_of(there.notCarriedOver, [](const Diagnostic& mistake) {
+      return mistake.message.find("Q279, Q280") != std::string::npos;
+    });
+    EXPECT_EQ(told, each.told) << each.centre1 << ", " << each.centre2;
+  }
 }
 
 /// CYCLE998 takes a required angle up to 45 degrees, that one with it.

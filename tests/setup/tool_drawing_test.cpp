@@ -29,5 +29,26 @@ TEST(ToolDrawing, DrawsEachToothAsOneLineFromTheAxisUp) {
   }
 }
 
+TEST(ToolDrawing, DrawsRunOutWearAndWhatHasBrokenOffATooth) {
+  simulation::TrueTool mill;
+  mill.kind = simulation::ToolKind::Cutter;
+  mill.length = 80;
+  mill.radius = 5;
+  mill.cutter.cutLength = 20;
+  mill.cutter.helix = 0;
+  const std::size_t body = drawnTool(mill).featureEdges.size();
+  mill.cutter.teeth = {{.radial = 0.1, .axial = 0.3, .radialWear = 0.04, .axialWear = 0.2}};
+  const reports::Mesh shifted = drawnTool(mill);
+  ASSERT_GT(shifted.featureEdges.size(), body);
+  // A longer tooth ends below the tool's end, a worn one above it.
+  const std::size_t last = shifted.featureEdges.size() - body - 1;
+  EXPECT_LT((shifted.featureEdges.front() - reports::Vector3f(0.06F, 0, -0.1F)).norm(), 1e-5);
+  EXPECT_LT((shifted.featureEdges[last] - reports::Vector3f(5.01F + 0.06F, 0, 19.9F)).norm(), 1e-5);
+  mill.cutter.teeth = {{.broken = 6}};
+  const reports::Mesh broken = drawnTool(mill);
+  for (std::size_t i = 0; i + body < broken.featureEdges.size(); ++i)
+    EXPECT_GE(broken.featureEdges[i].z(), 6 - 1e-5F);
+}
+
 }  // namespace
 }  // namespace probewright::setup

@@ -138,6 +138,8 @@ TEST(ToolRefusals, TheWrongDirectionOfCuttingDamagesTheContact) {
     EXPECT_EQ(refusing.alarm(all[1]), "");
     refusing.entries({{"DIRECT", "-"}});
     EXPECT_EQ(refusing.alarm(all[1]), "Collision");
+    refusing.world.bench.setup.world.truth.tools.back().cutter.teeth.clear();
+    EXPECT_EQ(refusing.alarm(all[1]), "") << "a round body does not cut";
   }
 }
 

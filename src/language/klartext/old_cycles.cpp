@@ -316,14 +316,11 @@ bool BlockParser::oldCyclePart(Part part) {
         const bool incremental = c == 'I';
         const char axis = incremental ? upper(lexer_.here(1)) : c;
         const char next = lexer_.here(incremental ? 2 : 1);
-        if (axis >= 'A' && axis <= 'C' && !isWordByte(next)) {
+        if (axis >= 'A' && axis <= 'C' && (!isWordByte(next) || upper(next) == 'Q')) {
           lexer_.advance(incremental ? 2 : 1);
           if (!word(addressOf({&axis, 1}), {&axis, 1}, incremental ? WordMode::Incremental : WordMode::Plain)) {
             return false;
           }
-        } else if (axis >= 'A' && axis <= 'C' && upper(next) == 'Q') {
-          lexer_.advance(incremental ? 2 : 1);
-          if (!word(addressOf({&axis, 1}), {&axis, 1})) return false;
         } else if (c == 'F') {
           Operand feed;
           bool rapid = false;
