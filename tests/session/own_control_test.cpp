@@ -32,11 +32,13 @@ public:
   void accompany(std::function<machine::OrderPlace()> place) override { place_ = std::move(place); }
   machine::MoveResult move(const machine::AxisPositions& target, machine::Feed feed) override {
     if (place_) places.push_back(place_());
+    if (touchedOff) own.offsets[4].origin = {{7, 8, -9}};
     return WillingMachine::move(target, feed);
   }
 
   OwnTables own, kept;
   std::optional<std::string> refuses;
+  bool touchedOff = false;  ///< the operator sets offset 5 while the program runs
   std::vector<machine::OrderPlace> places;
 
 private:
@@ -110,6 +112,14 @@ TEST_P(TablesAsOne, WhatTheMachineHasNotSetComesFromTheControl) {
   EXPECT_NEAR(mill.kept.offsets[0].origin[2], -400, 1e-9);
   ASSERT_EQ(mill.kept.tools.size(), 1U);
   EXPECT_NEAR(mill.kept.tools[0].diameter, 10, 1e-9);
+}
+
+TEST_P(TablesAsOne, WhatTheMachineLearnsDuringTheRunStays) {
+  mill.touchedOff = true;
+  const RunOutcome outcome = run();
+  EXPECT_EQ(outcome.info.exit, records::ExitState::Good) << outcome.info.exitText;
+  ASSERT_EQ(mill.kept.offsets.size(), 1U) << "the control knows nothing of offset 5, so it has nothing to say of it";
+  EXPECT_EQ(mill.kept.offsets[0].number, 1);
 }
 
 TEST_P(TablesAsOne, ATurnedOffsetTurnsTheProgram) {
