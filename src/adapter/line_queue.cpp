@@ -65,8 +65,8 @@ bool LineQueue::isDue(Clock::time_point now) const {
   return count_ >= mostLines || (count_ > 0 && now - firstAt_ > patience_);
 }
 
-std::vector<double> LineQueue::take(bool more) {
-  patience_ = more ? std::min(2 * patience_, late) : soon;
+std::vector<double> LineQueue::take(Next next) {
+  patience_ = next == Next::MoreLines ? std::min(2 * patience_, late) : soon;
   count_ = 0;
   points_.clear();
   return std::exchange(numbers_, {});

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "machine/machine.hpp"
@@ -24,8 +25,13 @@ public:
   bool empty() const { return count_ == 0; }
   /// Enough of them, or the first one has waited long enough.
   bool isDue(Clock::time_point now) const;
-  /// For each line its number, its feed, its target. `more`: others follow at once, for which there is more time.
-  std::vector<double> take(bool more);
+  /// What comes after the lines that are taken.
+  enum class Next : std::uint8_t {
+    MoreLines,     ///< at once; there is more time for them
+    AnotherOrder,  ///< the axes wait for whatever comes after it
+  };
+  /// For each line its number, its feed, its target.
+  std::vector<double> take(Next next);
 
 private:
   bool joinsOn(double feed, const machine::AxisPositions& to) const;

@@ -105,7 +105,7 @@ RemoteMachine::Answer RemoteMachine::lose(std::string why) const {
 
 RemoteMachine::Answer RemoteMachine::exchange(Json order) const {
   using Clock = std::chrono::steady_clock;
-  sendLines(false);
+  sendLines(LineQueue::Next::AnotherOrder);
   underWay_ = false;
   if (lost_) return {{}, failure_};
   const std::uint64_t id = ++lastOrder_;
@@ -282,7 +282,7 @@ bool RemoteMachine::keepLine(const AxisPositions& target, Feed feed) {
   lines_.add(now_.line.value_or(0), feed.rapid ? 0 : feed.perMinute, at_, target, toldAt_);
   at_ = target;
   if (lines_.isDue(toldAt_)) {
-    sendLines(true);
+    sendLines(LineQueue::Next::MoreLines);
     underWay_ = !lost_ && !failure_;
   }
   return true;
@@ -302,9 +302,9 @@ Json RemoteMachine::path(const std::vector<double>& numbers) const {
   return {{"do", "path"}, {"pieces", std::move(pieces)}};
 }
 
-void RemoteMachine::sendLines(bool more) const {
+void RemoteMachine::sendLines(LineQueue::Next next) const {
   if (lines_.empty()) return;
-  const Answer answer = exchange(path(lines_.take(more)));
+  const Answer answer = exchange(path(lines_.take(next)));
   if (answer.failure) return;
   // They count as travelled. Whatever stops the adapter stops the next order as well; if there is none, this is known.
   try {

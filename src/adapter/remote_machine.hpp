@@ -108,8 +108,8 @@ private:
   /// A line is kept until there are some, or an order of another kind comes. False: it has to be ordered by itself.
   bool keepLine(const machine::AxisPositions& target, machine::Feed feed);
   Json path(const std::vector<double>& numbers) const;
-  /// Orders the lines that were kept; `more`: others follow at once.
-  void sendLines(bool more) const;
+  /// Orders the lines that were kept.
+  void sendLines(LineQueue::Next next) const;
 
   std::shared_ptr<void> peer_;  ///< ends after the stream
   mutable LineStream stream_;

@@ -83,7 +83,8 @@ Place ToSinumerik::holePattern(const Block& block, const MeasuringTask& given, c
     takeRowZero();
     pattern.row = 99;
   }
-  if (pattern.correction != Correction::None && !pattern.row.isNumber()) pattern.row = runningRow(pattern.row, false);
+  if (pattern.correction != Correction::None && !pattern.row.isNumber())
+    pattern.row = runningRow(pattern.row, RowZero::Preset);
   pattern.active = pattern.row.isNumber() && pattern.row.number() < 0;
   if (pattern.fromUnturned) takeRotationOut(pattern);
   std::vector<Centre> centres;

@@ -57,7 +57,7 @@ void ToSinumerik::alignRotaryAxis(const Block& block, const Call& call) {
       takeRowZero();
       row = 99;
     }
-    if (row && !row->isNumber()) row = runningRow(*row, false);
+    if (row && !row->isNumber()) row = runningRow(*row, RowZero::Preset);
     setComponent(row, table + ",TR", [&](const std::string&) { return fmt::format("$AA_IM[{}]", table); });
   }
   for (const std::string& loss : losses)

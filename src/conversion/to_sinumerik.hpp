@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
@@ -147,9 +148,13 @@ private:
   void listRowAfterZero(const language::Block& block, const Quantity& row);
   /// Row 0, the preset that a cycle sets at once; here the last settable zero offset, a copy of the active one.
   void takeRowZero();
-  /// The number of the zero offset for a row that only the running program knows; it takes row 0 over as takeRowZero
-  /// does, or as the one in effect (`zeroIsActive`), and negative rows as the one in effect.
-  Quantity runningRow(const Quantity& row, bool zeroIsActive);
+  /// What row 0 stands for in a call.
+  enum class RowZero : std::uint8_t {
+    Preset,    ///< the preset that a cycle sets at once, as takeRowZero() has it
+    InEffect,  ///< the row in effect
+  };
+  /// The number of the zero offset for a row that only the running program knows; negative rows are the one in effect.
+  Quantity runningRow(const Quantity& row, RowZero zero);
   /// Writes a component of a zero offset, "Z,RT", and selects it again if it is in effect; without `row` that of the
   /// one in effect. `value` makes the new one of the text of the present one.
   void setComponent(const std::optional<Quantity>& row, const std::string& component,

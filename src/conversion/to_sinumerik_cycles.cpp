@@ -185,7 +185,7 @@ Place ToSinumerik::task(const Block& block, const MeasuringTask& given, const st
     task.row = 99;
   }
   if (corrects && !task.active && !task.row.isNumber()) {
-    task.row = runningRow(task.row, task.correction == Correction::Rotation);
+    task.row = runningRow(task.row, task.correction == Correction::Rotation ? RowZero::InEffect : RowZero::Preset);
   }
   Losses losses;
   const SinumerikPassage passage = sinumerikPassage(task, ballRadius_, losses);
@@ -339,13 +339,13 @@ void ToSinumerik::takeRowZero() {
   forgetPosition();
 }
 
-Quantity ToSinumerik::runningRow(const Quantity& row, bool zeroIsActive) {
+Quantity ToSinumerik::runningRow(const Quantity& row, RowZero zero) {
   const std::string own = formulas_.declare("_ROW");
   out_.line(fmt::format("{}={}", own, sinumerikText(row)));
-  out_.line(fmt::format("IF {}<{}0", own, zeroIsActive ? "=" : ""));
+  out_.line(fmt::format("IF {}<{}0", own, zero == RowZero::InEffect ? "=" : ""));
   out_.line(fmt::format("  {}=$P_UIFRNUM", own));
   out_.line("ENDIF");
-  if (!zeroIsActive) {
+  if (zero == RowZero::Preset) {
     out_.line(fmt::format("IF {}==0", own));
     out_.line("  $P_UIFR[99]=$P_UIFR[$P_UIFRNUM]");
     out_.line(fmt::format("  {}", settableCode(0)));
@@ -371,7 +371,7 @@ void ToSinumerik::basicRotation(const Block& block, const Call& call) {
   Quantity row = call.has("Q305") ? call.number("Q305") : Quantity(-1);
   listRowAfterZero(block, row);
   if (row == 0) takeRowZero();
-  if (!row.isNumber()) row = runningRow(row, false);
+  if (!row.isNumber()) row = runningRow(row, RowZero::Preset);
   const bool active = row.isNumber() && row.number() <= 0;
   setRotation(active ? std::nullopt : std::optional(row), call.number("Q307"));
 }

@@ -108,7 +108,11 @@ void BodyScene::addViews() {
     auto view = std::ranges::find(views_, thing.link, &BodyView::link);
     if (view == views_.end())
       view = views_.insert(views_.end(), BodyView{thing.link, kinematicsBetween(thing.link, head), {}, nullptr});
-    view->solids.push_back({thing.solid, thing.linkFromSolid, thing.name, SolidRole::Fixture, true});
+    view->solids.push_back({.solid = thing.solid,
+                            .tableFromSolid = thing.linkFromSolid,
+                            .name = thing.name,
+                            .role = SolidRole::Fixture,
+                            .ofMachine = true});
   }
   for (BodyView& view : views_)
     view.surroundings = std::make_unique<Surroundings>(view.solids);

@@ -41,7 +41,11 @@ PlacedSolid solidOf(const machine::TableBody& table) {
   }
   Pose pose = translation(table.centre);
   pose.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), table.normal).toRotationMatrix();
-  return {std::move(solid), pose, table.name, SolidRole::Fixture, true};
+  return {.solid = std::move(solid),
+          .tableFromSolid = pose,
+          .name = table.name,
+          .role = SolidRole::Fixture,
+          .ofMachine = true};
 }
 
 Result<std::unique_ptr<VirtualMachine>> buildMachine(const World& world, const ImportOptions& import,

@@ -1,6 +1,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <gp_Pnt.hxx>
 #include <gp_Vec.hxx>
 
@@ -112,7 +113,7 @@ public:
 
   /// Looks near one triangle; `coarse` is the meeting with the grown triangle. False if it cannot tell.
   bool near(const CadElement& triangle, const Meeting& coarse) {
-    return settles(triangle, coarse, true) || best_.when < 0;
+    return settles(triangle, coarse, Otherwise::Walk) || best_.when < 0;
   }
 
   /// Looks again where the iterations went astray: at smaller triangles around, those first that would be met first,
@@ -125,7 +126,7 @@ public:
       const Part next = std::move(open_.back());
       open_.pop_back();
       if (next.coarse.when > best_.when - kSame) return;
-      if (settles(next.element, next.coarse, false)) continue;
+      if (settles(next.element, next.coarse, Otherwise::LeaveOpen)) continue;
       if (next.depth < kDeepest && next.element.growth > kFlat && looked < kMostParts) {
         for (const CadElement& quarter : quarters(next.element))
           consider(quarter, next.depth + 1);
@@ -212,8 +213,10 @@ private:
     return (way_.at(when) - evaluate(surface_, at).point).norm() - radius_;
   }
 
+  /// What is done where the iteration from the triangle leads nowhere.
+  enum class Otherwise : std::uint8_t { Walk, LeaveOpen };
   /// True if what happens near the triangle is known: a contact, which goes into the best, or none.
-  bool settles(const CadElement& triangle, const Meeting& coarse, bool mayWalk) {
+  bool settles(const CadElement& triangle, const Meeting& coarse, Otherwise otherwise) {
     const Vector2 extent = 2 * parameterExtent(triangle);
     const Vector2 low = triangle.parameters[0].cwiseMin(triangle.parameters[1]).cwiseMin(triangle.parameters[2]);
     const auto isNear = [&](const Vector2& at) {
@@ -241,7 +244,7 @@ private:
     if (solved && isNear(at)) return accept(when, at);
     // A contact elsewhere counts, too, but this place is still open.
     if (solved) accept(when, at);
-    if (!mayWalk) return false;
+    if (otherwise == Otherwise::LeaveOpen) return false;
     // Walk up to the surface: slower, but never past the first contact.
     at = seed;
     when = std::max(0.0, coarse.when);

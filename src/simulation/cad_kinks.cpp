@@ -12,6 +12,7 @@
 #include <TopoDS_Face.hxx>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "simulation/cad_face.hpp"
@@ -28,9 +29,13 @@ gp_Vec normalAt(const BRepAdaptor_Surface& surface, double u, double v) {
   return normal.Magnitude() > 1e-12 ? normal.Normalized() : gp_Vec(0, 0, 0);
 }
 
+/// The parameter along which one goes across.
+enum class Across : std::uint8_t { U, V };
+
 /// True if the normal of the surface jumps where its parameter across is `at`. Many surfaces are smooth although their
 /// splines need not be: a rational circle of four quarters.
-bool isKink(const BRepAdaptor_Surface& surface, bool acrossU, double at) {
+bool isKink(const BRepAdaptor_Surface& surface, Across across, double at) {
+  const bool acrossU = across == Across::U;
   constexpr int kPlaces = 12;
   constexpr double kVisible = 1e-3;  // rad
   const double low = acrossU ? surface.FirstVParameter() : surface.FirstUParameter();
@@ -46,13 +51,14 @@ bool isKink(const BRepAdaptor_Surface& surface, bool acrossU, double at) {
   return false;
 }
 
-bool hasKinks(const BRepAdaptor_Surface& surface, bool acrossU) {
+bool hasKinks(const BRepAdaptor_Surface& surface, Across across) {
+  const bool acrossU = across == Across::U;
   const int count = acrossU ? surface.NbUIntervals(GeomAbs_C1) : surface.NbVIntervals(GeomAbs_C1);
   if (count < 2) return false;
   TColStd_Array1OfReal bounds(1, count + 1);
   acrossU ? surface.UIntervals(bounds, GeomAbs_C1) : surface.VIntervals(bounds, GeomAbs_C1);
   for (int i = 2; i < bounds.Length(); ++i) {
-    if (isKink(surface, acrossU, bounds(i))) return true;
+    if (isKink(surface, across, bounds(i))) return true;
   }
   return false;
 }
@@ -63,7 +69,7 @@ bool hasKinks(const TopoDS_Face& face) {
     case GeomAbs_BSplineSurface:
     case GeomAbs_SurfaceOfRevolution:
     case GeomAbs_SurfaceOfExtrusion:
-      return hasKinks(surface, true) || hasKinks(surface, false);
+      return hasKinks(surface, Across::U) || hasKinks(surface, Across::V);
     default:
       return false;
   }

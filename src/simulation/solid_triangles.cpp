@@ -35,14 +35,13 @@ void addLoop(DrawingMesh& mesh, const std::vector<Vector3>& corners) {
 
 DrawingMesh boxTriangles(const Bounds& box) {
   DrawingMesh mesh;
-  const auto corner = [&](bool x, bool y, bool z) {
-    return Vector3(x ? box.maximum.x() : box.minimum.x(), y ? box.maximum.y() : box.minimum.y(),
-                   z ? box.maximum.z() : box.minimum.z());
+  // Each coordinate 0 or 1: the lower or the upper limit of the box.
+  const auto corner = [&](int x, int y, int z) {
+    return Vector3(x == 1 ? box.maximum.x() : box.minimum.x(), y == 1 ? box.maximum.y() : box.minimum.y(),
+                   z == 1 ? box.maximum.z() : box.minimum.z());
   };
-  const std::vector<Vector3> below = {corner(false, false, false), corner(false, true, false),
-                                      corner(true, true, false), corner(true, false, false)};
-  const std::vector<Vector3> above = {corner(false, false, true), corner(true, false, true), corner(true, true, true),
-                                      corner(false, true, true)};
+  const std::vector<Vector3> below = {corner(0, 0, 0), corner(0, 1, 0), corner(1, 1, 0), corner(1, 0, 0)};
+  const std::vector<Vector3> above = {corner(0, 0, 1), corner(1, 0, 1), corner(1, 1, 1), corner(0, 1, 1)};
   addFace(mesh, below);
   addFace(mesh, above);
   for (std::size_t i = 0; i < 4; ++i) {

@@ -189,8 +189,8 @@ Findings::Truths Findings::truths(std::size_t i) const {
   return truths;
 }
 
-Risks Findings::risks(std::size_t i, const Tolerance& tolerance, const Tolerance& acceptance, bool exactly) const {
-  Risks risks = risksOf(table_.values(i), table_.truths(i), tolerance, acceptance);
+Risks Findings::risks(std::size_t i, const Tolerance& tolerance) const {
+  Risks risks = risksOf(table_.values(i), table_.truths(i), tolerance, tolerance);
   if (const TrialSummary::Column* counted = column(i)) {
     Risks more;
     more.count = static_cast<std::size_t>(trials_.regular());
@@ -198,20 +198,29 @@ Risks Findings::risks(std::size_t i, const Tolerance& tolerance, const Tolerance
     more.accepted = counted->accepted;
     more.falselyAccepted = counted->falselyAccepted;
     more.falselyRejected = counted->falselyRejected;
-    if (!exactly) {
-      const auto acceptedOf = [&](const ValueCells& cells) {
-        Counted points;
-        addPoints(points, cells, counted->values, trials_.grid()->columns[i].values.reference);
-        std::uint64_t accepted = 0;
-        for (const auto& [value, count] : points)
-          accepted += acceptance.contains(value) ? count : 0;
-        return accepted;
-      };
-      const std::uint64_t rightly = acceptedOf(counted->within);
-      more.falselyAccepted = acceptedOf(counted->beyond);
-      more.accepted = rightly + more.falselyAccepted;
-      more.falselyRejected = counted->trulyWithin - rightly;
-    }
+    risks.add(more);
+  }
+  return risks;
+}
+
+Risks Findings::guardedRisks(std::size_t i, const Tolerance& tolerance, const Tolerance& acceptance) const {
+  Risks risks = risksOf(table_.values(i), table_.truths(i), tolerance, acceptance);
+  if (const TrialSummary::Column* counted = column(i)) {
+    const auto acceptedOf = [&](const ValueCells& cells) {
+      Counted points;
+      addPoints(points, cells, counted->values, trials_.grid()->columns[i].values.reference);
+      std::uint64_t accepted = 0;
+      for (const auto& [value, count] : points)
+        accepted += acceptance.contains(value) ? count : 0;
+      return accepted;
+    };
+    const std::uint64_t rightly = acceptedOf(counted->within);
+    Risks more;
+    more.count = static_cast<std::size_t>(trials_.regular());
+    more.trulyWithin = counted->trulyWithin;
+    more.falselyAccepted = acceptedOf(counted->beyond);
+    more.accepted = rightly + more.falselyAccepted;
+    more.falselyRejected = counted->trulyWithin - rightly;
     risks.add(more);
   }
   return risks;

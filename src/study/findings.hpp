@@ -36,8 +36,10 @@ public:
     bool vary() const { return least < greatest; }
   };
   Truths truths(std::size_t i) const;
-  /// Of accepting what lies in `acceptance`; the counts of `exactly` the tolerance are exact.
-  Risks risks(std::size_t i, const Tolerance& tolerance, const Tolerance& acceptance, bool exactly) const;
+  /// Of accepting what lies within the tolerance: exact counts.
+  Risks risks(std::size_t i, const Tolerance& tolerance) const;
+  /// Of accepting what lies in `acceptance`, a part of the tolerance; counts of a summary as exact as its cells.
+  Risks guardedRisks(std::size_t i, const Tolerance& tolerance, const Tolerance& acceptance) const;
   /// Of trials that came to both; nothing where one of them does not vary.
   std::optional<double> correlation(std::size_t a, std::size_t b) const;
 

@@ -150,8 +150,8 @@ private:
       answer.decision = decide(*answer.corrected, answer.guardBand, tolerance);
     }
     if (!answer.error) return;
-    answer.risks = findings.risks(i, tolerance, tolerance, true);
-    if (zone) answer.guardedRisks = findings.risks(i, tolerance, *zone, false);
+    answer.risks = findings.risks(i, tolerance);
+    if (zone) answer.guardedRisks = findings.guardedRisks(i, tolerance, *zone);
   }
 
   void noteMeasurands() {

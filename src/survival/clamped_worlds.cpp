@@ -271,16 +271,16 @@ Result<Truth> ClampedWorlds::truth(std::span<const double> values) const {
   return truth;
 }
 
-std::vector<double> ClampedWorlds::extreme(const Box& box, bool most) const {
+std::vector<double> ClampedWorlds::cornerWith(Material material, const Box& box) const {
   std::vector<double> values = box.middle();
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (material_[i] != 0) values[i] = (material_[i] > 0) == most ? box.high[i] : box.low[i];
+    if (material_[i] != 0) values[i] = (material_[i] > 0) == (material == Material::Most) ? box.high[i] : box.low[i];
   }
   return values;
 }
 
-Result<Truth> ClampedWorlds::truthWithMost(const Box& box) const { return truth(extreme(box, true)); }
-Result<Truth> ClampedWorlds::truthWithLeast(const Box& box) const { return truth(extreme(box, false)); }
+Result<Truth> ClampedWorlds::truthWithMost(const Box& box) const { return truth(cornerWith(Material::Most, box)); }
+Result<Truth> ClampedWorlds::truthWithLeast(const Box& box) const { return truth(cornerWith(Material::Least, box)); }
 
 Result<std::unique_ptr<simulation::VirtualMachine>> ClampedWorlds::machine(Truth truth) const {
   auto machine = std::make_unique<simulation::VirtualMachine>(std::move(truth));

@@ -3,6 +3,7 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <array>
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <mutex>
@@ -74,7 +75,9 @@ private:
                 const simulation::ImportOptions& import);
   Result<void> explore();
   Result<setup::Setup> setupOf(std::span<const double> values) const;
-  std::vector<double> extreme(const Box& box, bool most) const;
+  enum class Material : std::uint8_t { Most, Least };
+  /// The corner of the box with the most or the least material.
+  std::vector<double> cornerWith(Material material, const Box& box) const;
   /// A solid whose pose varies: where each of its six numbers comes from.
   struct Posed {
     std::size_t solid = 0;

@@ -37,7 +37,7 @@ std::vector<Line> sent(const std::vector<Line>& program, std::size_t axes, LineQ
     queue.add(line.number, line.feed, at, line.to, now);
     at = line.to;
   }
-  const std::vector<double> numbers = queue.take(false);
+  const std::vector<double> numbers = queue.take(LineQueue::Next::AnotherOrder);
   EXPECT_TRUE(queue.empty());
   std::vector<Line> lines;
   for (std::size_t i = 0; i + axes + 1 < numbers.size(); i += axes + 2) {
@@ -151,12 +151,12 @@ TEST(LineQueue, SendsTheFirstLinesSoonAndLaterOnesManyAtATime) {
   EXPECT_FALSE(queue.isDue(now));
   EXPECT_LE(held(), std::chrono::milliseconds(3));
   for (int i = 0; i < 10; ++i) {
-    queue.take(true);
+    queue.take(LineQueue::Next::MoreLines);
     held();
   }
-  queue.take(true);
+  queue.take(LineQueue::Next::MoreLines);
   EXPECT_GE(held(), std::chrono::milliseconds(50));
-  queue.take(false);
+  queue.take(LineQueue::Next::AnotherOrder);
   EXPECT_LE(held(), std::chrono::milliseconds(3)) << "after another order the axes wait again";
 }
 

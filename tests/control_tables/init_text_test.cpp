@@ -285,7 +285,7 @@ TEST(ToolData, LengthsActAsThePlaneSays) {
   EXPECT_EQ(toolVector(WorkingPlane::ofG(18), turning), Vector3(1, 3, 2));
   EXPECT_EQ(toolVector(WorkingPlane::ofG(17), turning), Vector3(2, 1, 3));
   EXPECT_EQ(toolVector(WorkingPlane::ofG(19), turning), Vector3(3, 2, 1));
-  EXPECT_EQ(toolVector(WorkingPlane::ofG(18), mill, true), Vector3(1, 3, 2));
+  EXPECT_EQ(toolVector(WorkingPlane::ofG(18), mill, LengthType::AsTurning), Vector3(1, 3, 2));
 }
 
 TEST(MeasuringData, TableIsOrderedAndDefaultsAgreeWithTheMasks) {

@@ -7,6 +7,7 @@
 
 #include "base/number_text.hpp"
 #include "control/alarm.hpp"
+#include "control/sinumerik/length_type.hpp"
 #include "control/sinumerik/text.hpp"
 #include "control/sinumerik/tool_carrier.hpp"
 #include "control/sinumerik/tool_data.hpp"
@@ -120,8 +121,7 @@ void Control::applyTool() {
   tool.position = edge.position;
   tool.radius = edge.totalRadius();
   tool.correctionAngle = edge.correctionAngle;
-  const bool asTurning = machineData("$SC_TOOL_LENGTH_TYPE") == 2;
-  channel.toolVector = toolVector(planeOfLengths(data, plane), edge, asTurning);
+  channel.toolVector = toolVector(planeOfLengths(data, plane), edge, lengthType(*this));
   channel.toolRadius = tool.radius;
 }
 

@@ -1,10 +1,13 @@
 #pragma once
 
 #include "control/sinumerik/control.hpp"
+#include "control/sinumerik/tool_data.hpp"
 
 namespace probewright::control::sinumerik {
 
-/// SD 42950 $SC_TOOL_LENGTH_TYPE = 2: the lengths of all tools act in the axes in which those of turning tools do.
-inline bool lengthsAsTurning(const Control& control) { return control.machineData("$SC_TOOL_LENGTH_TYPE") == 2; }
+/// SD 42950 $SC_TOOL_LENGTH_TYPE.
+inline LengthType lengthType(const Control& control) {
+  return control.machineData("$SC_TOOL_LENGTH_TYPE") == 2 ? LengthType::AsTurning : LengthType::ByToolType;
+}
 
 }  // namespace probewright::control::sinumerik

@@ -126,8 +126,8 @@ std::optional<int> toolNamed(const DataStore& store, std::string_view name) {
 
 std::string toolName(const DataStore& store, int tool) { return store.text("$TC_TP2", {tool}); }
 
-std::array<int, 3> lengthAxes(WorkingPlane plane, const ToolEdge& edge, bool asTurning) {
-  if (asTurning || edge.isTurning()) return {plane.minor, plane.main, plane.tool};
+std::array<int, 3> lengthAxes(WorkingPlane plane, const ToolEdge& edge, LengthType type) {
+  if (type == LengthType::AsTurning || edge.isTurning()) return {plane.minor, plane.main, plane.tool};
   return {plane.tool, plane.minor, plane.main};
 }
 
@@ -137,8 +137,8 @@ WorkingPlane planeOfLengths(const DataStore& store, int activePlane) {
   return WorkingPlane::ofG(plane);
 }
 
-Vector3 toolVector(WorkingPlane plane, const ToolEdge& edge, bool asTurning) {
-  const auto axes = lengthAxes(plane, edge, asTurning);
+Vector3 toolVector(WorkingPlane plane, const ToolEdge& edge, LengthType type) {
+  const auto axes = lengthAxes(plane, edge, type);
   const auto lengths = edge.totalLength();
   Vector3 vector = Vector3::Zero();
   for (std::size_t i = 0; i < 3; ++i)

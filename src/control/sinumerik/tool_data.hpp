@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -60,16 +61,22 @@ std::vector<int> toolEdges(const DataStore& store, int tool);
 std::optional<int> toolNamed(const DataStore& store, std::string_view name);
 std::string toolName(const DataStore& store, int tool);
 
+/// Whose lengths get their axes as those of turning tools do.
+enum class LengthType : std::uint8_t {
+  ByToolType,  ///< those of turning tools
+  AsTurning,   ///< those of all tools: $SC_TOOL_LENGTH_TYPE = 2
+};
+
 /// The geometry axes (0, 1, 2 for X, Y, Z) in which length 1, 2, 3 act. Mills, drills and probes: length 1 in the third
-/// axis of the plane, 2 in the second, 3 in the first. Turning tools, or all with `asTurning` ($SC_TOOL_LENGTH_TYPE =
-/// 2): length 1 in the second axis, 2 in the first, 3 in the third.
-std::array<int, 3> lengthAxes(WorkingPlane plane, const ToolEdge& edge, bool asTurning = false);
+/// axis of the plane, 2 in the second, 3 in the first. Turning tools: length 1 in the second axis, 2 in the first, 3 in
+/// the third.
+std::array<int, 3> lengthAxes(WorkingPlane plane, const ToolEdge& edge, LengthType type = LengthType::ByToolType);
 
 /// The plane by which the lengths of tools get their axes: the active one (17, 18, 19), unless SD 42940
 /// $SC_TOOL_LENGTH_CONST names one for good.
 WorkingPlane planeOfLengths(const DataStore& store, int activePlane);
 
 /// From the tool tip to the tool reference point in X, Y, Z.
-Vector3 toolVector(WorkingPlane plane, const ToolEdge& edge, bool asTurning = false);
+Vector3 toolVector(WorkingPlane plane, const ToolEdge& edge, LengthType type = LengthType::ByToolType);
 
 }  // namespace probewright::control::sinumerik

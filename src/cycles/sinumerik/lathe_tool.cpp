@@ -38,15 +38,15 @@ LatheTool::LatheTool(Context& context, ProbeSystem system)
   radius_ = control.tool.radius;
   cornerRadius_ = std::min(edge.cornerRadius, radius_);
   plane_ = control.workingPlane();
-  const bool asTurning = lengthsAsTurning(control);
-  lengthAxes_ = control::sinumerik::lengthAxes(planeOfLengths(data, control.plane), edge, asTurning);
+  const auto type = lengthType(control);
+  lengthAxes_ = control::sinumerik::lengthAxes(planeOfLengths(data, control.plane), edge, type);
   if (edge.isTurning()) {
     kind_ = LatheToolKind::Turning;
     if (position_ < 1 || position_ > 8)
       context.alarm(61315, fmt::format("$TC_DP2 = {}, turning tools are measured with 1 to 8", position_));
   } else if (type_ >= 100 && type_ < 300) {
     kind_ = type_ < 200 ? LatheToolKind::Mill : LatheToolKind::Drill;
-    if (!asTurning) {
+    if (type != control::sinumerik::LengthType::AsTurning) {
       // Length 1 lies in the 3rd axis of the plane then: a drill in G17 along
       // Z, in G19 along X.
       if (kind_ == LatheToolKind::Mill || control.plane == 18) {

@@ -124,7 +124,7 @@ std::string ProbeCalibration::lengthName(int axis) const {
   const Control& control = context_.control();
   const auto edge = toolEdge(control.data, control.tool.number, control.tool.edge);
   const auto axes = lengthAxes(planeOfLengths(control.data, control.plane),
-                               edge.value_or(control::sinumerik::ToolEdge{}), lengthsAsTurning(control));
+                               edge.value_or(control::sinumerik::ToolEdge{}), lengthType(control));
   const int geometryAxis = control.workingPlane().axis(axis);
   return fmt::format("$TC_DP{}", 3 + (std::ranges::find(axes, geometryAxis) - axes.begin()));
 }

@@ -134,12 +134,13 @@ Corrected correctedBy(const Context& context, const ToolTarget& target, const To
                       const ToolInfluence& influence) {
   if (target.component == Component::Radius) return {3, 1};
   const int plane = context.control().plane;
-  const bool asTurning = lengthsAsTurning(context.control());
-  const auto lengths = lengthAxes(planeOfLengths(context.control().data, plane), edge, asTurning);
+  const auto type = lengthType(context.control());
+  const auto lengths = lengthAxes(planeOfLengths(context.control().data, plane), edge, type);
   if (maskBit(context.control().data, "$MNS_MEA_FUNCTION_MASK", 2) && influence.surface && carrierIsTurned(context))
     return onTurnedCarrier(context, target, edge, influence, lengths);
   if (target.component != Component::FromAxis) return {static_cast<int>(target.component) - 1, 1};
-  if (!edge.isTurning() && (influence.radiusFromAxis || !asTurning)) return {influence.radiusFromAxis ? 3 : 0, 1};
+  if (!edge.isTurning() && (influence.radiusFromAxis || type != control::sinumerik::LengthType::AsTurning))
+    return {influence.radiusFromAxis ? 3 : 0, 1};
   const int axis = control::WorkingPlane::ofG(plane).axis(static_cast<int>(influence.measuringAxis));
   return {static_cast<int>(std::ranges::find(lengths, axis) - lengths.begin()), 1};
 }

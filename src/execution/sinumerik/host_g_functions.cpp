@@ -36,13 +36,14 @@ void SinumerikHost::carryOut(const Modal& modal, Evaluation& evaluation) {
     if (const std::string_view what = skippedTransformation(arguments); !what.empty()) skip(what);
   }
   const auto value = [&] { return evaluation.number(words.front().value); };
-  const auto setDiameter = [&](bool on, int place) {
-    control_.diameter = on;
-    state_.gGroup[29] = place;
+  enum DiameterCode { DIAMOF = 1, DIAMON = 2, DIAM90 = 3 };  // places in G group 29
+  const auto setDiameter = [&](DiameterCode code) {
+    control_.diameter = code != DIAMOF;
+    state_.gGroup[29] = code;
   };
-  const auto transform = [&](bool on) {
+  const auto transform = [&] {
     motion_.flush();
-    control_.transformation = on;
+    control_.transformation = kind == ModalKind::TransformationOn;
     control_.useKinematics();
     control_.handOverFrames();
   };
@@ -61,15 +62,14 @@ void SinumerikHost::carryOut(const Modal& modal, Evaluation& evaluation) {
       if (!words.empty()) selectEdge(wholeNumber(value()));
       return;
     case ModalKind::DiameterOn:
-      return setDiameter(true, 2);
+      return setDiameter(DIAMON);
     case ModalKind::DiameterIfAbsolute:
-      return setDiameter(true, 3);
+      return setDiameter(DIAM90);
     case ModalKind::DiameterOff:
-      return setDiameter(false, 1);
+      return setDiameter(DIAMOF);
     case ModalKind::TransformationOn:
-      return transform(true);
     case ModalKind::TransformationOff:
-      return transform(false);
+      return transform();
     case ModalKind::OrientationEuler:
     case ModalKind::OrientationRpy:
     case ModalKind::OrientationRpyFromX:
