@@ -117,12 +117,12 @@ void parameters(std::string_view text) {
   if (!read) return;
   for (const ControlKind kind : {ControlKind::TNC640, ControlKind::iTNC530}) {
     Diagnostics mistakes;
-    const MachineParameters values = session::machineParameters(read->beliefs, kind, mistakes);
+    const MachineParameters values = session::heidenhain::machineParameters(read->beliefs, kind, mistakes);
     requireTexts(mistakes);
     require(values.mp6160 >= -1 && values.maxTouchFeed >= 0);
   }
   Diagnostics mistakes;
-  session::sinumerikData(read->beliefs, mistakes);
+  session::sinumerik::sinumerikData(read->beliefs, mistakes);
   requireTexts(mistakes);
 }
 

@@ -92,7 +92,7 @@ Result<void> save(const fs::path& folder, const std::map<std::string, std::strin
 
 /// Presses the soft keys, and keeps what they have changed.
 Result<void> operate(const CameraArguments& arguments, hh::MonitoringPoint& point) {
-  const std::map<std::string, std::string> before = session::monitoringFiles(point);
+  const std::map<std::string, std::string> before = session::heidenhain::monitoringFiles(point);
   std::map<std::string, std::string> pictures;
   const auto say = [](const std::string& text) { put(printable(text) + "\n", stdout); };
   hh::CameraScreen screen(
@@ -109,7 +109,7 @@ Result<void> operate(const CameraArguments& arguments, hh::MonitoringPoint& poin
   for (const auto& [name, bytes] : pictures) {
     if (const auto why = whyNotWritable(arguments.folder, name)) return tl::unexpected(*why);
   }
-  std::map<std::string, std::string> after = session::monitoringFiles(point);
+  std::map<std::string, std::string> after = session::heidenhain::monitoringFiles(point);
   after.merge(pictures);
   return save(arguments.folder, before, after);
 }
@@ -128,7 +128,7 @@ int camera(const CameraArguments& arguments) {
             {}}});
     return 2;
   }
-  std::vector<hh::MonitoringPoint> points = session::readMonitoringFiles(arguments.folder, mistakes);
+  std::vector<hh::MonitoringPoint> points = session::heidenhain::readMonitoringFiles(arguments.folder, mistakes);
   print(mistakes);
   if (hasErrors(mistakes)) return 2;
   if (arguments.point.empty()) {

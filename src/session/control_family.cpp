@@ -70,7 +70,7 @@ std::optional<ControlKind> ControlFamilies::controlNamed(std::string_view text) 
 }
 
 const ControlFamilies& knownFamilies() {
-  static const ControlFamilies families({heidenhainFamily(), sinumerikFamily()});
+  static const ControlFamilies families({heidenhain::heidenhainFamily(), sinumerik::sinumerikFamily()});
   return families;
 }
 

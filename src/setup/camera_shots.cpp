@@ -33,7 +33,7 @@ public:
       return bytes->second;
     };
     Diagnostics ignored;
-    point = session::readMonitoringPoint(text->second, file, image, ignored);
+    point = session::heidenhain::readMonitoringPoint(text->second, file, image, ignored);
     return point ? &*point : nullptr;
   }
 

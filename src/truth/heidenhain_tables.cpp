@@ -108,7 +108,7 @@ std::vector<EntryTruth> deflectionEntries(const session::RunOutcome& outcome, co
   const auto cycle = lastCycle(outcome.journal, "460");
   if (!cycle || outcome.control != control::ControlKind::TNC640) return entries;
   Diagnostics ignored;
-  const auto before = session::heidenhainTables(beliefs, outcome.control, ignored);
+  const auto before = session::heidenhain::heidenhainTables(beliefs, outcome.control, ignored);
   const auto tools = tableOf(outcome, "TOOL.T", hh::toolColumns());
   if (!tools) return entries;
   for (const control::BelievedTool& believed : beliefs.tools) {

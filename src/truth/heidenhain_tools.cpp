@@ -46,7 +46,7 @@ std::optional<control::heidenhain::TypedTable> leftBehind(const session::RunOutc
 void heidenhainTools(CollectedEntries& entries, const session::RunOutcome& outcome, const control::Beliefs& calibrated,
                      const simulation::Truth& truth) {
   Diagnostics ignored;
-  const auto ideal = session::heidenhainTables(calibrated, outcome.control, ignored);
+  const auto ideal = session::heidenhain::heidenhainTables(calibrated, outcome.control, ignored);
   const WrittenValues written = writtenValues(outcome.journal);
   const auto tools = leftBehind(outcome, "TOOL.T", control::heidenhain::toolColumns());
   const auto turningTools = leftBehind(outcome, "TOOLTURN.TRN", control::heidenhain::turningToolColumns());

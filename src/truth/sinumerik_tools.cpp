@@ -195,11 +195,12 @@ std::vector<records::EntryTruth> sinumerikToolEntries(const session::RunOutcome&
                                                       const control::Beliefs& calibrated,
                                                       const simulation::Truth& truth) {
   Diagnostics ignored;
-  const Compared compared{.before = session::sinumerikData(beliefs, ignored).store,
-                          .ideal = session::sinumerikData(withInserts(withoutSizes(calibrated), truth), ignored).store,
-                          .written = writtenValues(outcome.journal),
-                          .tools = calibrated.tools,
-                          .lathe = calibrated.technology == control::Technology::Turning};
+  const Compared compared{
+      .before = session::sinumerik::sinumerikData(beliefs, ignored).store,
+      .ideal = session::sinumerik::sinumerikData(withInserts(withoutSizes(calibrated), truth), ignored).store,
+      .written = writtenValues(outcome.journal),
+      .tools = calibrated.tools,
+      .lathe = calibrated.technology == control::Technology::Turning};
   CollectedEntries entries;
   toolSizes(entries, outcome, compared, truth);
   calibrationData(entries, compared);

@@ -123,12 +123,12 @@ TEST(BallPosition, IsTrueWhereTheSetupNamesNoBelief) {
     Diagnostics diagnostics;
     const auto setup = setup::parseSetup(text, "s.toml", diagnostics);
     ASSERT_TRUE(setup) << (diagnostics.empty() ? "" : format(diagnostics.front()));
-    const auto tables = session::heidenhainTables(setup->beliefs, ControlKind::TNC640, diagnostics);
+    const auto tables = session::heidenhain::heidenhainTables(setup->beliefs, ControlKind::TNC640, diagnostics);
     // Turned to CAL_ANG, the ball that stands at (0.3, -0.2) of the spindle stands there in the machine's axes.
     const Vector2 there = Eigen::Rotation2Dd(radians(angle)) * Vector2(0.3, -0.2);
     EXPECT_NEAR(tables.probes.numberOr("1", "CAL_OF1", 99), there.x(), 5e-5);
     EXPECT_NEAR(tables.probes.numberOr("1", "CAL_OF2", 99), there.y(), 5e-5);
-    const auto parameters = session::machineParameters(setup->beliefs, ControlKind::iTNC530, diagnostics);
+    const auto parameters = session::heidenhain::machineParameters(setup->beliefs, ControlKind::iTNC530, diagnostics);
     EXPECT_NEAR(parameters.calibratedOffset1, there.x(), exact);
     EXPECT_NEAR(parameters.calibratedOffset2, there.y(), exact);
   }

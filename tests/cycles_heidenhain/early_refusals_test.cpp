@@ -137,7 +137,7 @@ TEST(Beliefs, OfTheOlderControlHaveOneAngle) {
     Bench bench = benchOf(kind);
     bench.setup.beliefs.presets.front().rotation = {1, 2, 3};
     Diagnostics diagnostics;
-    session::heidenhainTables(bench.setup.beliefs, kind, diagnostics);
+    session::heidenhain::heidenhainTables(bench.setup.beliefs, kind, diagnostics);
     EXPECT_EQ(hasErrors(diagnostics), kind == ControlKind::iTNC530);
     if (kind == ControlKind::iTNC530) {
       EXPECT_NE(diagnostics.front().message.find("preset 1"), std::string::npos);
@@ -150,7 +150,7 @@ TEST(Beliefs, EnterTheOffsetOfARotaryAxisWhereCyclesDo) {
   Bench bench = benchOf(ControlKind::TNC640, "mill5-table-table");
   bench.setup.beliefs.presets.front().rotary["C"] = 10;
   Diagnostics diagnostics;
-  const auto tables = session::heidenhainTables(bench.setup.beliefs, ControlKind::TNC640, diagnostics);
+  const auto tables = session::heidenhain::heidenhainTables(bench.setup.beliefs, ControlKind::TNC640, diagnostics);
   EXPECT_EQ(tables.presets.numberOr("1", "C_OFFS", 0), 10);
   EXPECT_EQ(tables.presets.numberOr("1", "C", 0), 0);
 }
@@ -164,7 +164,7 @@ TEST(Beliefs, ReadParametersWithADot) {
                                                      name),
                                          "s.toml", diagnostics);
     ASSERT_TRUE(setup) << format(diagnostics.front());
-    const auto parameters = session::machineParameters(setup->beliefs, ControlKind::iTNC530, diagnostics);
+    const auto parameters = session::heidenhain::machineParameters(setup->beliefs, ControlKind::iTNC530, diagnostics);
     EXPECT_TRUE(diagnostics.empty());
     EXPECT_EQ(parameters.mp6180x, 123.5);
   }

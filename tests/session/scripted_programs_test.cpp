@@ -95,8 +95,8 @@ struct Klartext {
   Diagnostics diagnostics;
   ScriptedMachine machine{*machine::readMachine("mill3")};
   control::heidenhain::Control control{ControlKind::TNC640, machine,
-                                       heidenhainTables(beliefs, ControlKind::TNC640, diagnostics),
-                                       machineParameters(beliefs, ControlKind::TNC640, diagnostics)};
+                                       heidenhain::heidenhainTables(beliefs, ControlKind::TNC640, diagnostics),
+                                       heidenhain::machineParameters(beliefs, ControlKind::TNC640, diagnostics)};
 };
 
 struct Sinumerik {
@@ -112,7 +112,7 @@ struct Sinumerik {
   control::Beliefs beliefs = beliefsOf(ControlKind::Sinumerik840Dsl);
   Diagnostics diagnostics;
   ScriptedMachine machine{*machine::readMachine("mill3")};
-  control::sinumerik::Control control{machine, sinumerikData(beliefs, diagnostics).store};
+  control::sinumerik::Control control{machine, sinumerik::sinumerikData(beliefs, diagnostics).store};
 };
 
 std::string why(const RunResult& result) {

@@ -123,7 +123,7 @@ private:
 
   static control::sinumerik::DataStore beliefs(const setup::Setup& setup) {
     Diagnostics diagnostics;
-    session::SinumerikData data = session::sinumerikData(setup.beliefs, diagnostics);
+    session::sinumerik::SinumerikData data = session::sinumerik::sinumerikData(setup.beliefs, diagnostics);
     EXPECT_TRUE(diagnostics.empty());
     return data.store;
   }

@@ -15,7 +15,7 @@
 #include "control/heidenhain/turning_tool_table.hpp"
 #include "session/table_files.hpp"
 
-namespace probewright::session {
+namespace probewright::session::heidenhain {
 
 namespace hh = control::heidenhain;
 namespace fs = std::filesystem;
@@ -245,4 +245,4 @@ hh::MachineParameters machineParameters(const Beliefs& beliefs, ControlKind kind
   return parameters;
 }
 
-}  // namespace probewright::session
+}  // namespace probewright::session::heidenhain

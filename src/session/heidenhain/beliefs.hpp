@@ -7,7 +7,7 @@
 
 /// What a HEIDENHAIN control believes when a program starts: its own table files where the beliefs name a folder,
 /// otherwise tables made from the beliefs. Mistakes go to `diagnostics`.
-namespace probewright::session {
+namespace probewright::session::heidenhain {
 
 /// TOOL.T, TCHPROBE.TP, PRESET.PR and all datum tables (*.D). A file in the folder of tables comes first; believed
 /// tools, probes and presets are entered where the file has no row for them.
@@ -21,4 +21,4 @@ int activePresetRow(const control::Beliefs& beliefs);
 control::heidenhain::MachineParameters machineParameters(const control::Beliefs& beliefs, control::ControlKind kind,
                                                          Diagnostics& diagnostics);
 
-}  // namespace probewright::session
+}  // namespace probewright::session::heidenhain

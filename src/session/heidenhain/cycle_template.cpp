@@ -9,7 +9,7 @@
 #include "session/first_value.hpp"
 #include "session/heidenhain/family_parts.hpp"
 
-namespace probewright::session {
+namespace probewright::session::heidenhain {
 
 namespace {
 
@@ -66,4 +66,4 @@ std::string klartextTemplate(const CycleDefinition& cycle, control::ControlKind 
   return text + "\n";
 }
 
-}  // namespace probewright::session
+}  // namespace probewright::session::heidenhain

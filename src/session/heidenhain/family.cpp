@@ -14,7 +14,7 @@
 #include "session/setup_check.hpp"
 #include "session/source.hpp"
 
-namespace probewright::session {
+namespace probewright::session::heidenhain {
 
 using control::ControlKind;
 using language::Program;
@@ -122,4 +122,4 @@ ControlFamily heidenhainFamily() {
   return family;
 }
 
-}  // namespace probewright::session
+}  // namespace probewright::session::heidenhain

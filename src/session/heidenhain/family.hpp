@@ -2,9 +2,9 @@
 
 #include "session/control_family.hpp"
 
-namespace probewright::session {
+namespace probewright::session::heidenhain {
 
 /// The HEIDENHAIN controls.
 ControlFamily heidenhainFamily();
 
-}  // namespace probewright::session
+}  // namespace probewright::session::heidenhain

@@ -3,7 +3,7 @@
 #include "session/heidenhain/family.hpp"
 
 /// The parts of the family's entry that are more than a line.
-namespace probewright::session {
+namespace probewright::session::heidenhain {
 
 Diagnostics checkHeidenhain(const CheckRequest& request);
 /// Klartext, with the text of the control after each parameter.
@@ -11,4 +11,4 @@ std::string klartextTemplate(const cycles::CycleDefinition& cycle, control::Cont
                              control::DialogLanguage language);
 RunOn prepareHeidenhain(const RunRequest& request, Diagnostics& diagnostics);
 
-}  // namespace probewright::session
+}  // namespace probewright::session::heidenhain

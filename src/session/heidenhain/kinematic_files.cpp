@@ -8,7 +8,7 @@
 #include "control/heidenhain/kinematics.hpp"
 #include "session/table_files.hpp"
 
-namespace probewright::session {
+namespace probewright::session::heidenhain {
 
 namespace fs = std::filesystem;
 namespace hh = control::heidenhain;
@@ -82,4 +82,4 @@ void writeKinematics(const hh::Control& control, std::map<std::string, std::stri
 
 std::set<std::string> kinematicFileNames() { return {hh::kinematicTableName, hh::savedKinematicsName}; }
 
-}  // namespace probewright::session
+}  // namespace probewright::session::heidenhain

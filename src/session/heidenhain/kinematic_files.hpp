@@ -9,7 +9,7 @@
 #include "control/heidenhain/control.hpp"
 
 /// The kinematics of a control before and after a run: KINEMATIC.TAB, DATA450.KD and *.KCO of the folder of tables.
-namespace probewright::session {
+namespace probewright::session::heidenhain {
 
 /// The active kinematics: that of KINEMATIC.TAB if there is one, else what the beliefs say. Mistakes go to
 /// `diagnostics`.
@@ -21,4 +21,4 @@ void writeKinematics(const control::heidenhain::Control& control, std::map<std::
 /// The names that writeKinematics() may use.
 std::set<std::string> kinematicFileNames();
 
-}  // namespace probewright::session
+}  // namespace probewright::session::heidenhain

@@ -13,7 +13,7 @@
 #include "session/table_files.hpp"
 #include "vision/png.hpp"
 
-namespace probewright::session {
+namespace probewright::session::heidenhain {
 
 namespace hh = control::heidenhain;
 namespace fs = std::filesystem;
@@ -137,4 +137,4 @@ std::map<std::string, std::string> monitoringFiles(const MonitoringPoint& point)
   return files;
 }
 
-}  // namespace probewright::session
+}  // namespace probewright::session::heidenhain

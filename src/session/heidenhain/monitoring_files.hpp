@@ -12,7 +12,7 @@
 
 /// The data of the control's camera outlive a program: for each monitoring point a run leaves a file *.VSC and its
 /// images as PNG beside the tables, where the next one reads them.
-namespace probewright::session {
+namespace probewright::session::heidenhain {
 
 /// The monitoring points whose files are in the folder of tables. Mistakes go to `diagnostics`.
 std::vector<control::heidenhain::MonitoringPoint> readMonitoringFiles(const std::filesystem::path& tables,
@@ -30,4 +30,4 @@ std::optional<control::heidenhain::MonitoringPoint> readMonitoringPoint(const st
 /// All files of a point, by name.
 std::map<std::string, std::string> monitoringFiles(const control::heidenhain::MonitoringPoint& point);
 
-}  // namespace probewright::session
+}  // namespace probewright::session::heidenhain

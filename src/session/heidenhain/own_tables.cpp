@@ -8,7 +8,7 @@
 
 #include "session/own_control.hpp"
 
-namespace probewright::session {
+namespace probewright::session::heidenhain {
 
 namespace hh = control::heidenhain;
 using machine::OwnOffset;
@@ -112,4 +112,4 @@ OwnTables differing(const hh::Tables& tables, const OwnTables& own, const machin
   return changed;
 }
 
-}  // namespace probewright::session
+}  // namespace probewright::session::heidenhain

@@ -8,7 +8,7 @@
 #include "base/number_text.hpp"
 #include "language/klartext/formula_writer.hpp"
 
-namespace probewright::session {
+namespace probewright::session::heidenhain {
 
 using control::heidenhain::QParameters;
 
@@ -52,4 +52,4 @@ std::string remanentParametersText(const QParameters& q) {
   return text;
 }
 
-}  // namespace probewright::session
+}  // namespace probewright::session::heidenhain

@@ -8,7 +8,7 @@
 
 /// QR parameters outlive a program. A run leaves them in a file beside the tables, where the next one reads them:
 /// lines such as QR5 = 12.5.
-namespace probewright::session {
+namespace probewright::session::heidenhain {
 
 inline constexpr const char* remanentFile = "QR.TXT";
 
@@ -19,4 +19,4 @@ void readRemanentParameters(const std::filesystem::path& tables, control::heiden
 /// The text of the file; empty if no QR parameter has a value.
 std::string remanentParametersText(const control::heidenhain::QParameters& q);
 
-}  // namespace probewright::session
+}  // namespace probewright::session::heidenhain

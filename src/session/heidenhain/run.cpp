@@ -20,7 +20,7 @@
 #include "session/standing_machine.hpp"
 #include "session/trace_recorder.hpp"
 
-namespace probewright::session {
+namespace probewright::session::heidenhain {
 
 namespace fs = std::filesystem;
 namespace hh = control::heidenhain;
@@ -239,4 +239,4 @@ RunOn prepareHeidenhain(const RunRequest& request, Diagnostics& diagnostics) {
   };
 }
 
-}  // namespace probewright::session
+}  // namespace probewright::session::heidenhain

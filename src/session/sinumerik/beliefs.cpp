@@ -15,7 +15,7 @@
 #include "session/sinumerik/lathe_beliefs.hpp"
 #include "session/table_files.hpp"
 
-namespace probewright::session {
+namespace probewright::session::sinumerik {
 
 namespace sin = control::sinumerik;
 namespace fs = std::filesystem;
@@ -154,4 +154,4 @@ std::set<std::string> namesOfData(const Beliefs& beliefs) {
   return names;
 }
 
-}  // namespace probewright::session
+}  // namespace probewright::session::sinumerik

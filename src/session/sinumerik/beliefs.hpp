@@ -14,7 +14,7 @@ class GlobalUserData;
 }
 
 /// What a SINUMERIK control believes when a program starts.
-namespace probewright::session {
+namespace probewright::session::sinumerik {
 
 /// A SINUMERIK control's data: initialization texts (*.INI, *.TOA, *.UFR, *.GUD, *.SEA...) of the folder of tables,
 /// believed tools, calibration data and zero offsets, machine and setting data, and the texts, to be written back.
@@ -36,4 +36,4 @@ std::set<std::string> namesOfData(const control::Beliefs& beliefs);
 /// Number of the settable zero offset that is active at the start: 0 is G500.
 int activeZeroOffset(const control::Beliefs& beliefs);
 
-}  // namespace probewright::session
+}  // namespace probewright::session::sinumerik

@@ -8,7 +8,7 @@
 #include "session/sinumerik/family_parts.hpp"
 #include "words/cycle_words.hpp"
 
-namespace probewright::session {
+namespace probewright::session::sinumerik {
 
 std::string sinumerikTemplate(const cycles::CycleDefinition& cycle, control::ControlKind kind,
                               control::DialogLanguage language) {
@@ -31,4 +31,4 @@ std::string sinumerikTemplate(const cycles::CycleDefinition& cycle, control::Con
   return fmt::format("{}{}({})\n", comments, cycle.name, call);
 }
 
-}  // namespace probewright::session
+}  // namespace probewright::session::sinumerik

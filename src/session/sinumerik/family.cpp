@@ -21,7 +21,7 @@
 #include "session/sinumerik/global_data.hpp"
 #include "session/source.hpp"
 
-namespace probewright::session {
+namespace probewright::session::sinumerik {
 
 using control::ControlKind;
 using language::Program;
@@ -161,4 +161,4 @@ ControlFamily sinumerikFamily() {
   return family;
 }
 
-}  // namespace probewright::session
+}  // namespace probewright::session::sinumerik

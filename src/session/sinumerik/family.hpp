@@ -2,9 +2,9 @@
 
 #include "session/control_family.hpp"
 
-namespace probewright::session {
+namespace probewright::session::sinumerik {
 
 /// The SINUMERIK controls.
 ControlFamily sinumerikFamily();
 
-}  // namespace probewright::session
+}  // namespace probewright::session::sinumerik

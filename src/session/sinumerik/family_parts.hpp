@@ -7,7 +7,7 @@ class GlobalUserData;
 }
 
 /// The parts of the family's entry that are more than a line.
-namespace probewright::session {
+namespace probewright::session::sinumerik {
 
 /// `globalData`: what definition files declare.
 Diagnostics checkSinumerik(const CheckRequest& request, const execution::sinumerik::GlobalUserData& globalData);
@@ -19,4 +19,4 @@ RunOn prepareSinumerik(const RunRequest& request, Diagnostics& diagnostics);
 /// Tells a SINUMERIK program the macros of definition files.
 void useMacros(language::Program& program, const execution::sinumerik::GlobalUserData& globalData);
 
-}  // namespace probewright::session
+}  // namespace probewright::session::sinumerik

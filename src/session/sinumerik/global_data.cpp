@@ -6,7 +6,7 @@
 
 #include "base/file.hpp"
 
-namespace probewright::session {
+namespace probewright::session::sinumerik {
 
 namespace fs = std::filesystem;
 
@@ -36,4 +36,4 @@ execution::sinumerik::GlobalUserData globalUserData(const fs::path& program, con
   return data;
 }
 
-}  // namespace probewright::session
+}  // namespace probewright::session::sinumerik

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace probewright::session {
+namespace probewright::session::sinumerik {
 
 using control::sinumerik::DataKey;
 using control::sinumerik::DataStore;
@@ -66,4 +66,4 @@ void enterLatheTool(DataStore& store, const control::BelievedTool& tool) {
   calibration("FEED", tool.feed);
 }
 
-}  // namespace probewright::session
+}  // namespace probewright::session::sinumerik

@@ -7,7 +7,7 @@
 
 #include "session/own_control.hpp"
 
-namespace probewright::session {
+namespace probewright::session::sinumerik {
 
 namespace sin = control::sinumerik;
 using machine::OwnOffset;
@@ -111,4 +111,4 @@ OwnTables differing(const sin::DataStore& store, const OwnTables& own, const mac
   return changed;
 }
 
-}  // namespace probewright::session
+}  // namespace probewright::session::sinumerik

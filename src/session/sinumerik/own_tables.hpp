@@ -13,7 +13,7 @@
 /// fine) and the rotation about Z; a frame that turns about X or Y, scales or mirrors is the data's alone. Of a tool it
 /// is the length and the radius, wear and base included; a touch probe keeps its radius, tools of lathes are the data's
 /// alone.
-namespace probewright::session {
+namespace probewright::session::sinumerik {
 
 /// As for HEIDENHAIN controls (session/heidenhain/own_tables.hpp).
 std::vector<std::string> takeOver(control::sinumerik::DataStore& store, const machine::OwnTables& own,
@@ -21,4 +21,4 @@ std::vector<std::string> takeOver(control::sinumerik::DataStore& store, const ma
 machine::OwnTables differing(const control::sinumerik::DataStore& store, const machine::OwnTables& own,
                              const machine::MachineDescription& machine);
 
-}  // namespace probewright::session
+}  // namespace probewright::session::sinumerik

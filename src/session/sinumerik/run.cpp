@@ -22,7 +22,7 @@
 #include "session/standing_machine.hpp"
 #include "session/trace_recorder.hpp"
 
-namespace probewright::session {
+namespace probewright::session::sinumerik {
 
 namespace fs = std::filesystem;
 namespace sin = control::sinumerik;
@@ -324,4 +324,4 @@ RunOn prepareSinumerik(const RunRequest& request, Diagnostics& diagnostics) {
   };
 }
 
-}  // namespace probewright::session
+}  // namespace probewright::session::sinumerik
