@@ -109,6 +109,14 @@ control::ResultRecord resultRecord(std::string name, const ResultDefinition* def
 enum class CycleFamily : std::uint8_t { Misalignment, Preset, Inspection, Special, Calibration, Kinematics, Tool };
 std::string_view nameOf(CycleFamily family);
 
+/// What a template of a call has for a parameter where `check` would complain of the default, of the first choice or of
+/// 0, or where that helps nobody.
+struct Example {
+  std::string_view parameter;
+  double number = 0;
+  std::string_view text = {};  ///< of a parameter that takes a text
+};
+
 struct CycleDefinition {
   int number = 0;          ///< 411, 977
   std::string_view name;   ///< "411", "CYCLE977"
@@ -121,6 +129,7 @@ struct CycleDefinition {
   /// What people read of this cycle alone: title, summary, meanings, names of alarms and what they say. What several
   /// cycles say stands in the tables of web/src/texts.
   std::span<const OwnWords> words = {};
+  std::span<const Example> examples = {};
 
   const Parameter* parameter(std::uint32_t address) const;
   /// The result of that name, where several share it that of the measuring variant with `units` in S_MVAR; null if the

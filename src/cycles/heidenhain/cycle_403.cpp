@@ -80,6 +80,10 @@ double angleAbout(int axis, int from, const ProgramWay& along) {
   return from == (axis + 1) % 3 ? angle : normalizedDegrees(angle - 90);
 }
 
+constexpr Example examples[] = {
+    {"Q312", 6},  // the C axis
+};
+
 constexpr CycleDefinition definition = {
     .number = 403,
     .name = "403",
@@ -88,6 +92,7 @@ constexpr CycleDefinition definition = {
     .summary = "Measures the misalignment of an edge by two touches and turns a rotary axis until it is aligned.",
     .parameters = parameters403,
     .results = results403,
+    .examples = examples,
 };
 
 void rules(CallRules& call) {

@@ -49,6 +49,12 @@ constexpr Parameter parameters451[] = {
     overrun,
 };
 
+constexpr Example examples[] = {
+    {"Q419", -90},
+    {"Q420", 90},
+    {"Q422", 4},
+};
+
 constexpr CycleDefinition definition = {
     .number = 451,
     .name = "451",
@@ -59,6 +65,7 @@ constexpr CycleDefinition definition = {
         "corrects positions and angles of the axes in the active kinematics.",
     .parameters = parameters451,
     .results = results::kinematics,
+    .examples = examples,
 };
 
 void rules(CallRules& call) {

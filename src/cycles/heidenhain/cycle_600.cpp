@@ -20,6 +20,8 @@ constexpr Parameter parameters600[] = {
     referenceImages,
 };
 
+constexpr Example examples[] = {{"Q616", 1000}};
+
 constexpr CycleDefinition definition = {
     .number = 600,
     .name = "600",
@@ -31,6 +33,7 @@ constexpr CycleDefinition definition = {
     .parameters = parameters600,
     .results = cameraResults,
     .controls = control::onTNC640,
+    .examples = examples,
 };
 
 /// The tool axis goes up before the others move, and down after them.

@@ -221,6 +221,10 @@ int oldCorner(OldCall& call) {
 
 int oldForm(OldCall& call) { return oldCorner(call) + call.task(OldCall::Corrects::ZeroOffsetOnly); }
 
+constexpr Example examples[] = {
+    {"S_SETV0", 10}, {"S_SETV1", 40}, {"S_SETV2", 10}, {"S_SETV3", 40}, {"S_TSA", 5},  // degrees
+};
+
 constexpr CycleDefinition definition = {
     .number = 961,
     .name = "CYCLE961",
@@ -232,6 +236,7 @@ constexpr CycleDefinition definition = {
     .parameters = parameters961,
     .results = results961,
     .controls = control::onSinumerik,
+    .examples = examples,
 };
 
 void run(Context& context, const Arguments&) {

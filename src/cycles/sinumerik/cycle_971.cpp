@@ -221,6 +221,11 @@ constexpr AlarmText alarms[] = {
     {61350, "Feed or speed of the turning spindle is 0", "enter SD 54670 to SD 54677, or S_F1 and S_S1"},
 };
 
+constexpr Example examples[] = {
+    {"S_MVAR", 1},  // a tool, the spindle standing
+    {"S_MA", 3},    // its length
+};
+
 constexpr CycleDefinition definition = {
     .number = 971,
     .name = "CYCLE971",
@@ -232,6 +237,7 @@ constexpr CycleDefinition definition = {
     .parameters = parameters971,
     .results = results971,
     .controls = control::onSinumerik,
+    .examples = examples,
 };
 
 void run(Context& context, const Arguments&) {

@@ -255,6 +255,11 @@ int oldForm(OldCall& call) {
 
 constexpr TitleSize titleSizes[] = {{"S_SETV", 0b1'1110}, {"S_SETV0", 0b110'0000}, {"S_SETV1", 0b110'0000}};
 
+constexpr Example examples[] = {
+    {"S_MVAR", 1},  // a hole
+    {"S_SETV", 30},
+};
+
 constexpr CycleDefinition definition = {
     .number = 977,
     .name = "CYCLE977",
@@ -267,6 +272,7 @@ constexpr CycleDefinition definition = {
     .parameters = parameters977,
     .results = results977,
     .controls = control::onSinumerik,
+    .examples = examples,
 };
 
 void run(Context& context, const Arguments&) {

@@ -53,6 +53,10 @@ int oldForm(OldCall& call) {
   return call.task(OldCall::Corrects::AlsoTools) + call.digit(4) * 10000;
 }
 
+constexpr Example examples[] = {
+    {"S_MA", 1},
+};
+
 constexpr CycleDefinition definition = {
     .number = 978,
     .name = "CYCLE978",
@@ -62,6 +66,7 @@ constexpr CycleDefinition definition = {
     .parameters = parameters978,
     .results = results978,
     .controls = control::onSinumerik,
+    .examples = examples,
 };
 
 void run(Context& context, const Arguments&) {

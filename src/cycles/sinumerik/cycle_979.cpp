@@ -97,6 +97,12 @@ int oldForm(OldCall& call) {
 
 constexpr TitleSize titleSizes[] = {{"S_SETV"}};
 
+constexpr Example examples[] = {
+    {"S_MVAR", 1},  // a hole
+    {"S_SETV", 30},
+    {"S_INCA", 90},
+};
+
 constexpr CycleDefinition definition = {
     .number = 979,
     .name = "CYCLE979",
@@ -108,6 +114,7 @@ constexpr CycleDefinition definition = {
     .parameters = parameters979,
     .results = results979,
     .controls = control::onSinumerik,
+    .examples = examples,
 };
 
 void run(Context& context, const Arguments&) {

@@ -115,6 +115,11 @@ constexpr AlarmText alarms[] = {
     {61037, "Wrong measuring variant", "measure the rear side of the tool in the basic position of its carrier"},
 };
 
+constexpr Example examples[] = {
+    {"S_MVAR", 1},  // along one axis
+    {"S_MA", 1},
+};
+
 constexpr CycleDefinition definition = {
     .number = 982,
     .name = "CYCLE982",
@@ -127,6 +132,7 @@ constexpr CycleDefinition definition = {
     .parameters = parameters982,
     .results = results982,
     .controls = control::onSinumerik,
+    .examples = examples,
 };
 
 /// What S_MVAR says that fits to no tool; null if it fits to one.

@@ -182,6 +182,10 @@ int oldForm(OldCall& call) {
 
 constexpr TitleSize titleSizes[] = {{"S_SETV"}};
 
+constexpr Example examples[] = {
+    {"S_SETV", 30},
+};
+
 constexpr CycleDefinition definition = {
     .number = 994,
     .name = "CYCLE994",
@@ -193,6 +197,7 @@ constexpr CycleDefinition definition = {
     .parameters = parameters994,
     .results = results994,
     .controls = control::onSinumerik,
+    .examples = examples,
 };
 
 void run(Context& context, const Arguments&) {

@@ -176,6 +176,12 @@ void combinations(CallCombinations& call) {
     call.refuse("S_TUL", fmt::format("S_TUL = {} is smaller than 0", formatShortest(*upper)));
 }
 
+constexpr Example examples[] = {
+    {"S_MVAR", 102015},  // the only one, the diameter as set
+    {"S_SETV", 25},
+    {"S_DZ", 30},
+};
+
 constexpr CycleDefinition definition = {
     .number = 995,
     .name = "CYCLE995",
@@ -187,6 +193,7 @@ constexpr CycleDefinition definition = {
     .parameters = parameters995,
     .results = results995,
     .controls = control::onSinumerik,
+    .examples = examples,
 };
 
 void run(Context& context, const Arguments&) {

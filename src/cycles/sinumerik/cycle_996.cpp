@@ -353,6 +353,12 @@ constexpr AlarmText alarms[] = {
     {61430, "The vectors of the kinematics were not calculated", "measure each rotary axis three times, far apart"},
 };
 
+constexpr Example examples[] = {
+    {"S_MVAR", 10001},  // 1st measurement of rotary axis 1
+    {"S_TC", 1},
+    {"S_SETV", 25},
+};
+
 constexpr CycleDefinition definition = {
     .number = 996,
     .name = "CYCLE996",
@@ -364,6 +370,7 @@ constexpr CycleDefinition definition = {
     .parameters = parameters996,
     .results = results996,
     .controls = control::onSinumerik,
+    .examples = examples,
 };
 
 void run(Context& context, const Arguments&) {

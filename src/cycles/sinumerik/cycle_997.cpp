@@ -194,6 +194,10 @@ constexpr AlarmText alarms[] = {
      "check the set centres of the balls, or enlarge S_TNVL"},
 };
 
+constexpr Example examples[] = {
+    {"S_SETV", 25},
+};
+
 constexpr CycleDefinition definition = {
     .number = 997,
     .name = "CYCLE997",
@@ -205,6 +209,7 @@ constexpr CycleDefinition definition = {
     .parameters = parameters997,
     .results = results997,
     .controls = control::onSinumerik,
+    .examples = examples,
 };
 
 void run(Context& context, const Arguments&) {

@@ -317,6 +317,11 @@ int oldForm(OldCall& call) {
   return call.digit(1) + call.task(OldCall::Corrects::ZeroOffsetOnly) + call.digit(4) * 10000 + call.digit(6) * 100000;
 }
 
+constexpr Example examples[] = {
+    {"S_TSA", 5},  // degrees
+    {"S_ID", 30},
+};
+
 constexpr CycleDefinition definition = {
     .number = 998,
     .name = "CYCLE998",
@@ -328,6 +333,7 @@ constexpr CycleDefinition definition = {
     .parameters = parameters998,
     .results = results998,
     .controls = control::onSinumerik,
+    .examples = examples,
 };
 
 void run(Context& context, const Arguments&) {
