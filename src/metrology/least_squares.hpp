@@ -69,7 +69,6 @@ public:
   }
 
   const State& state() const { return state_; }
-  double cost() const { return cost_; }
   const Eigen::VectorXd& residuals() const { return residuals_; }
 
   /// (J^T J)^-1 at the state, or false if the points leave a parameter undetermined.

@@ -16,11 +16,6 @@ void skipDigits(std::string_view& text) {
     text.remove_prefix(1);
 }
 
-std::string_view trimmedRight(std::string_view text) {
-  text = trimmedAtEnd(text, blanksAndReturn);
-  return text;
-}
-
 /// The end of the line's statement: the place of its end sign, or npos if it has none.
 std::size_t endSign(std::string_view line) {
   bool inText = false;
@@ -29,9 +24,9 @@ std::size_t endSign(std::string_view line) {
     if (line[i] == '"') inText = !inText;
     if (line[i] == ';' && !inText) comment = i;
   }
-  const std::string_view whole = trimmedRight(line);
+  const std::string_view whole = trimmedAtEnd(line, blanksAndReturn);
   if (whole.ends_with('*')) return whole.size() - 1;
-  const std::string_view statement = trimmedRight(line.substr(0, comment));
+  const std::string_view statement = trimmedAtEnd(line.substr(0, comment), blanksAndReturn);
   return statement.ends_with('*') ? statement.size() - 1 : std::string_view::npos;
 }
 

@@ -100,7 +100,6 @@ TransformKind kindOf(const Block& block, const Transform& transform) {
   return kindNamed<TransformKind>(transformNames, block.at(transform.name));
 }
 
-bool isFreeContour(CommandKind kind) { return kind >= CommandKind::FreeLine; }
 bool isFunction(CommandKind kind) { return kind >= CommandKind::Fn14 && kind <= CommandKind::Fn38; }
 bool isPlane(TransformKind kind) { return kind >= TransformKind::PlaneSpatial; }
 bool isTrans(TransformKind kind) {

@@ -109,8 +109,6 @@ CommandKind functionCommand(int number);
 CommandKind kindOf(const Block& block, const Command& command);
 TransformKind kindOf(const Block& block, const Transform& transform);
 
-/// True for FL, FLT, FC, FCT, FPOL and FSELECT.
-bool isFreeContour(CommandKind kind);
 /// True for FN 14 to FN 38.
 bool isFunction(CommandKind kind);
 /// True for PLANE and TRANS.
