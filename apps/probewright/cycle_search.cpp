@@ -131,14 +131,25 @@ std::vector<const CycleDefinition*> cyclesAbout(std::string_view sought,
   }
   titles.insert(titles.end(), others.begin(), others.end());
   if (!titles.empty()) return titles;
-  // A word of a parameter in another language, such as "Sicherheitsabstand".
+  // A word of another language, such as "Schnelles Antasten" of a title, "Sicherheitsabstand" of a parameter.
+  others.clear();
   for (const CycleDefinition* cycle : known) {
     std::string text;
-    for (const cycles::Parameter& parameter : cycle->parameters)
-      for (const std::string& translation : words::inOtherLanguages(parameter.meaning))
+    const auto add = [&text](std::string_view english) {
+      for (const std::string& translation : words::inOtherLanguages(english))
         text.append(translation).append("\n");
-    if (all(plain(text))) titles.push_back(cycle);
+    };
+    add(cycle->title);
+    if (all(plain(text))) {
+      titles.push_back(cycle);
+      continue;
+    }
+    add(cycle->summary);
+    for (const cycles::Parameter& parameter : cycle->parameters)
+      add(parameter.meaning);
+    if (all(plain(text))) others.push_back(cycle);
   }
+  titles.insert(titles.end(), others.begin(), others.end());
   return titles;
 }
 

@@ -20,6 +20,7 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 const std::string klartext = "examples/programs/housing.h", klartextSetup = "examples/setups/housing-tnc640.toml";
 
@@ -166,6 +167,10 @@ TEST(CycleTexts, AreThoseOfTheControlInItsLanguage) {
   EXPECT_THAT(block("451", "en"), Not(HasSubstr("PARAMETER")));
   EXPECT_THAT(probewright({"cycles", "412", "--language", "de"}).output, HasSubstr("Bezugspunkt Kreis innen"));
   EXPECT_THAT(probewright({"cycles", "Sicherheitsabstand"}).output, HasSubstr("412"));
+  // Of a title and of a summary, which stand in the cycle's own file.
+  EXPECT_THAT(probewright({"cycles", "Schnelles Antasten"}).output, StartsWith("441 "));
+  EXPECT_THAT(probewright({"cycles", "Szybkie próbkowanie"}).output, StartsWith("441 "));
+  EXPECT_THAT(probewright({"cycles", "Nachführung"}).output, HasSubstr("FAST PROBING"));
 }
 
 }  // namespace
