@@ -61,6 +61,14 @@ void ToKlartext::surveyShift(const Block& block, const Instruction& instruction)
   }
 }
 
+ToKlartext::SelectedUnit ToKlartext::unitOf(const Block& block, const Instruction& instruction) {
+  const auto* modal = std::get_if<Modal>(&instruction);
+  const std::string_view name = modal == nullptr ? std::string_view() : block.at(modal->name);
+  if (name == "G70" || name == "G700") return SelectedUnit::Inch;
+  if (name == "G71" || name == "G710") return SelectedUnit::Millimetre;
+  return SelectedUnit::None;
+}
+
 void ToKlartext::survey() {
   usedResults_ = job_.results;
   bool moved = false;
@@ -78,22 +86,28 @@ void ToKlartext::survey() {
     for (const Instruction& instruction : block.instructions) {
       const auto* function = std::get_if<MachineFunction>(&instruction);
       changesTool_ = changesTool_ || (function != nullptr && function->number == 6);
-      const auto* modal = std::get_if<Modal>(&instruction);
-      const std::string_view name = modal == nullptr ? std::string_view() : block.at(modal->name);
       surveyShift(block, instruction);
       moved = moved || std::holds_alternative<Move>(instruction) || std::holds_alternative<CallProgram>(instruction);
-      if (name == "G70" || name == "G700") {
-        millimetre_ = 1 / millimetresOfInch;
-        movesBeforeUnit_ = movesBeforeUnit_ || moved;
-      }
+      units_.add(unitOf(block, instruction));
+      if (unitOf(block, instruction) == SelectedUnit::Inch) movesBeforeUnit_ = movesBeforeUnit_ || moved;
     }
   }
   Diagnostics ignored;
+  Units ofOthers;
   for (const auto& other : job_.others) {
-    for (BlockPosition at = other->begin(); other->parse(at, block, ignored); at = block.next)
-      for (const Instruction& instruction : block.instructions)
+    Units& units = unitsOf_[upperCase(other->name())];
+    for (BlockPosition at = other->begin(); other->parse(at, block, ignored); at = block.next) {
+      for (const Instruction& instruction : block.instructions) {
         surveyShift(block, instruction);
+        units.add(unitOf(block, instruction));
+        ofOthers.add(unitOf(block, instruction));
+      }
+    }
   }
+  // A subprogram that selects no unit counts in that of its callers.
+  const bool inherits = job_.called && !units_.inch && !units_.metric;
+  unitDoubtful_ = inherits && ofOthers.inch && ofOthers.metric;
+  if (units_.inch || (inherits && ofOthers.inch && !ofOthers.metric)) millimetre_ = 1 / millimetresOfInch;
 }
 
 Conversion ToKlartext::run() {
@@ -107,6 +121,7 @@ Conversion ToKlartext::run() {
   Block block;
   for (BlockPosition at = program_.begin(); program_.parse(at, block, ignored); at = block.next)
     write(block);
+  if (!endLabel_.empty()) label(endLabel_);
   out_.insert(0, formulas_.globalValues());
   if (sectionsByNumber_) out_.insert(0, {fmt::format("{} = 0", formulas_.define("section under way"))});
   result_.text = numbered();
@@ -193,6 +208,11 @@ void ToKlartext::write(const Block& block) {
 }
 
 void ToKlartext::statements(const Block& block) {
+  if (unitDoubtful_ && !block.instructions.empty()) {
+    unitDoubtful_ = false;
+    out_.list(block, "this program selects no unit, and others of its job select both: what is written counts in mm",
+              "begin the program with G71 or G70");
+  }
   // A tool change is in one block with its M6; suppression of the tool length belongs to a motion on the machine.
   for (const Instruction& each : block.instructions)
     instruction(block, each);
@@ -216,9 +236,7 @@ void ToKlartext::instruction(const Block& block, const Instruction& instruction)
       throw NotCarriedOver("RET with a destination or a number of levels has no twin in Klartext",
                            "leave the subprogram with a Q parameter that the caller compares");
     }
-    if (program_.parse(block.next, *std::make_unique<Block>(), result_.mistakes)) {
-      throw NotCarriedOver("a return in the middle of a program has no twin in Klartext", "jump to its end");
-    }
+    if (program_.parse(block.next, *std::make_unique<Block>(), result_.mistakes)) returnEarly();
   } else if (const auto* stop = std::get_if<Stop>(&instruction)) {
     line(stop->optional ? "M1" : "STOP");
   } else if (const auto* travel = std::get_if<Move>(&instruction)) {
@@ -236,6 +254,16 @@ void ToKlartext::instruction(const Block& block, const Instruction& instruction)
   } else {
     throw NotCarriedOver("this block has no twin in Klartext", "write it by hand");
   }
+}
+
+/// A jump to the end of the program, where what was called returns.
+void ToKlartext::returnEarly() {
+  if (!sectionEnds_.empty()) {
+    throw NotCarriedOver("a return in a program with repeated sections has no twin in Klartext",
+                         "jump to the end of the program");
+  }
+  if (endLabel_.empty()) endLabel_ = unusedLabel("RETURN");
+  goTo(endLabel_);
 }
 
 void ToKlartext::toolCall(const Block& block, const ToolCall& call) {

@@ -28,6 +28,15 @@ private:
   // to_klartext.cpp: the program, tools, frames
   void survey();
   void surveyShift(const language::Block& block, const language::Instruction& instruction);
+  enum class SelectedUnit { None, Millimetre, Inch };
+  static SelectedUnit unitOf(const language::Block& block, const language::Instruction& instruction);
+  struct Units {
+    bool metric = false, inch = false;
+    void add(SelectedUnit unit) {
+      metric = metric || unit == SelectedUnit::Millimetre;
+      inch = inch || unit == SelectedUnit::Inch;
+    }
+  };
   void write(const language::Block& block);
   void statements(const language::Block& block);
   void instruction(const language::Block& block, const language::Instruction& instruction);
@@ -111,6 +120,8 @@ private:
   void jump(const language::Block& block, const language::Jump& jump);
   void repeat(const language::Block& block, const language::RepeatSection& section);
   void call(const language::Block& block, const language::CallProgram& call);
+  bool selectsUnitNext(const language::Block& block);
+  void returnEarly();
   /// Jumps to the label if the condition holds, or if it does not.
   enum class When { Holds, Fails };
   void jumpWhen(When when, const language::Block& block, const language::Operand& condition, const std::string& label);
@@ -230,7 +241,11 @@ private:
   std::set<int> usedResults_;                           ///< n of _OVR[n]
   std::map<std::uint64_t, std::set<int>> wantedAfter_;  ///< by the offset of each measuring cycle
   bool changesTool_ = false;                            ///< by M6
+  std::string endLabel_;                                ///< where early returns jump to; empty: there are none
   double millimetre_ = 1;                               ///< in the unit of the program
+  Units units_;                                         ///< that the program selects
+  std::map<std::string, Units> unitsOf_;                ///< that others of the job select, by their name in capitals
+  bool unitDoubtful_ = false;                           ///< and not listed yet
   TouchProbe probe_;
 
   std::map<std::uint64_t, Modes> entries_;  ///< by the offset of blocks that several ways lead to

@@ -233,6 +233,15 @@ void ToKlartext::endSections(const Block& block) {
     line(fmt::format("FN 9: IF +{} EQU +{} GOTO LBL \"{}\"", current, each + 1, backFrom(each)));
 }
 
+/// Whether the block after this one selects the unit of this program again.
+bool ToKlartext::selectsUnitNext(const Block& block) {
+  Block next;
+  Diagnostics ignored;
+  if (!program_.parse(block.next, next, ignored)) return true;  // the program ends
+  const SelectedUnit own = millimetre_ == 1 ? SelectedUnit::Millimetre : SelectedUnit::Inch;
+  return std::ranges::any_of(next.instructions, [&](const Instruction& each) { return unitOf(next, each) == own; });
+}
+
 void ToKlartext::call(const Block& block, const CallProgram& call) {
   if (call.modal || call.from.length != 0)
     throw NotCarriedOver("modal calls and calls of a section of a program have no twin in Klartext",
@@ -252,6 +261,14 @@ void ToKlartext::call(const Block& block, const CallProgram& call) {
   if (hasArguments) {
     throw NotCarriedOver(fmt::format("{} is called with arguments, which programs in Klartext do not take", name),
                          "pass values in Q parameters");
+  }
+  const auto units = unitsOf_.find(upperCase(name));
+  const bool inch = millimetre_ != 1;
+  if (units != unitsOf_.end() && (inch ? units->second.metric : units->second.inch) && !selectsUnitNext(block)) {
+    out_.list(block,
+              fmt::format("{} leaves this program in {}, and a HEIDENHAIN program has its own unit all the time", name,
+                          inch ? "mm" : "inches"),
+              fmt::format("program {} after the call", inch ? "G700" : "G710"));
   }
   const Quantity times = call.times.present() ? quantity(block, call.times) : Quantity(1);
   repeated(times, Rounds::Written, [&] { line(fmt::format("CALL PGM {}", name)); });

@@ -145,8 +145,7 @@ std::vector<std::string> ToSinumerik::head() const {
   lines.insert(lines.end(), callStack_.begin(), callStack_.end());
   if (job_.shares) lines.insert(lines.begin() + 1, std::string(sharedParametersRemark));
   const bool ofCaller = job_.called && !callsTools_;
-  lines.push_back(fmt::format("{}G90 G40 {} G94", ofCaller ? "" : "G17 ",
-                              program_.unit() == klartext::Unit::Inch ? "G700" : "G710"));
+  lines.push_back(fmt::format("{}G90 G40 {} G94", ofCaller ? "" : "G17 ", unitWord()));
   return lines;
 }
 

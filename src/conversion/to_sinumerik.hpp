@@ -49,6 +49,10 @@ private:
   void mark(const language::Block& block, const language::LabelMark& mark);
   void callLabel(const language::Block& block, const language::CallLabel& call);
   void callProgram(const language::Block& block, const language::CallProgram& call);
+  /// The G function of the unit of this program.
+  std::string_view unitWord() const;
+  /// Of a program of the job, by its name in capitals; nothing if it was not found.
+  std::optional<language::klartext::Unit> unitOf(std::string_view name) const;
   /// LBL 0 of a program that keeps its own stack of calls.
   void goBack();
   std::string labelName(std::string_view label);

@@ -122,6 +122,16 @@ void ToSinumerik::callLabel(const Block& block, const CallLabel& call) {
   lastMove_ = 0;
 }
 
+std::string_view ToSinumerik::unitWord() const { return program_.unit() == klartext::Unit::Inch ? "G700" : "G710"; }
+
+std::optional<klartext::Unit> ToSinumerik::unitOf(std::string_view name) const {
+  for (const auto& other : job_.others) {
+    const auto* program = dynamic_cast<const klartext::HeidenhainProgram*>(other.get());
+    if (program != nullptr && upperCase(withoutEnding(other->file())) == name) return program->unit();
+  }
+  return std::nullopt;
+}
+
 void ToSinumerik::callProgram(const Block& block, const CallProgram& call) {
   if (call.name.length == 0) throw NotCarriedOver("a program whose name is computed has no twin on a SINUMERIK");
   const std::string name = withoutEnding(block.at(call.name));
@@ -129,6 +139,8 @@ void ToSinumerik::callProgram(const Block& block, const CallProgram& call) {
     throw NotCarriedOver(fmt::format("{} is not a valid name of a SINUMERIK program", name),
                          "names begin with two letters or an underscore and have letters, digits and underscores");
   out_.line(upperCase(name));
+  // G700 and G710 of the called program stay in effect after it, its INCH or MM does not.
+  if (unitOf(upperCase(name)) != program_.unit()) out_.line(std::string(unitWord()));
   out_.list(block, fmt::format("program {} is called as it stands", upperCase(name)),
             "convert it too; it must be an .SPF",
             job_.programs.contains(upperCase(name)) ? Severity::Note : Severity::Warning);

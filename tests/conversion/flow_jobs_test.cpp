@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 
@@ -13,10 +14,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder that is gone at the end of the test.
+/// A folder of this process alone that is gone at the end of the test.
 class JobFolder {
 public:
-  explicit JobFolder(const std::string& name) : path_(fs::path(::testing::TempDir()) / name) {
+  explicit JobFolder(const std::string& name)
+      : path_(fs::path(::testing::TempDir()) / fmt::format("{}-{}", name, ::getpid())) {
     fs::remove_all(path_);
     fs::create_directories(path_);
   }
@@ -134,6 +136,92 @@ TEST(ConvertJobs, RunSinumerikProgramsThroughTheSameTouches) {
     ASSERT_TRUE(runsTheSame(original, twin));
   }
   EXPECT_EQ(compared, programs) << "too many jobs are named, too few compared";
+}
+
+/// Converts the job and runs both: the touches, each in the unit of its own program, are the same.
+void expectTheSame(const Files& files, const std::string& main, ProgramLanguage to) {
+  Dice dice(11);
+  const World world(dice);
+  const bool fromKlartext = to == ProgramLanguage::Sinumerik;
+  const JobFolder folder("probewright-job-unit"), other("probewright-job-unit-there");
+  put(folder, files);
+  const auto there = converted(folder, files, to, fromKlartext ? ".SPF" : ".H");
+  ASSERT_TRUE(there) << "something is listed";
+  put(other, *there);
+  const Twin original =
+      runFile(folder / main, files, fromKlartext ? ProgramLanguage::Klartext : ProgramLanguage::Sinumerik, world.part);
+  const Twin twin = runFile(other / (fromKlartext ? "MAIN.SPF" : "MAIN.H"), *there, to, world.part);
+  EXPECT_TRUE(original.finished) << original.why;
+  EXPECT_GE(original.journal.cycles.size(), 3u);
+  EXPECT_TRUE(runsTheSame(original, twin));
+}
+
+/// 427 down to the top of the part at 3 mm, or as many inches; `x`, `y`: from the part's origin in mm.
+std::string downwards(const Vector3& nominal, double x, double y, double unit) {
+  return fmt::format(
+      "TCH PROBE 427 MEASURE ~\n  Q263={:+.6f} ~\n  Q264={:+.6f} ~\n  Q261={:+.6f} ~\n  Q320={:+.6f} ~\n  Q272=+3 ~\n  "
+      "Q267=-1 ~\n  Q260={:+.6f} ~\n  Q281=+0 ~\n  Q288=+0 ~\n  Q289=+0 ~\n  Q309=+0 ~\n  Q330=+0\n",
+      (nominal.x() + x) / unit, (nominal.y() + y) / unit, nominal.z() / unit, 3 / unit, (nominal.z() + 20) / unit);
+}
+
+/// G700 of a called program stays in effect after it, INCH of a called program does not.
+TEST(ConvertJobs, CountEachProgramInItsOwnUnit) {
+  Dice dice(11);
+  const Vector3 n = World(dice).nominal();
+  for (const bool mainInInches : {true, false}) {
+    SCOPED_TRACE(mainInInches);
+    const double own = mainInInches ? 25.4 : 1, called = mainInInches ? 1 : 25.4;
+    const std::string one = mainInInches ? "INCH" : "MM", other = mainInInches ? "MM" : "INCH";
+    const std::string up = fmt::format("L Z{:+.6f} R0 FMAX\n", (n.z() + 60) / own);
+    expectTheSame(
+        {{"MAIN.H", fmt::format("BEGIN PGM MAIN {}\nTOOL CALL 1 Z\n{}{}CALL PGM SUB\n{}{}M30\nEND PGM MAIN {}\n", one,
+                                up, downwards(n, -40, -30, own), downwards(n, 30, -20, own), up, one)},
+         {"SUB.H", fmt::format("BEGIN PGM SUB {}\n{}END PGM SUB {}\n", other, downwards(n, 10, -40, called), other)}},
+        "MAIN.H", ProgramLanguage::Sinumerik);
+  }
+}
+
+std::string downwards978(const Vector3& n, double x, double y, double unit) {
+  return fmt::format("G0 X{:.6f} Y{:.6f}\nG0 Z{:.6f}\nCYCLE978(0,,,1,{:.6f},{:.6f},{:.6f},3,2,1)\nG0 Z{:.6f}\n",
+                     (n.x() + x) / unit, (n.y() + y) / unit, (n.z() + 6) / unit, n.z() / unit, 5 / unit, 4 / unit,
+                     (n.z() + 60) / unit);
+}
+
+/// A subprogram that selects no unit counts in that of its caller.
+TEST(ConvertJobs, GiveSubprogramsTheUnitOfTheirCaller) {
+  Dice dice(11);
+  const Vector3 n = World(dice).nominal();
+  expectTheSame(
+      {{"MAIN.MPF", fmt::format("G17 G90 G700 G54\nT1\nM6 D1\nG0 Z{:.6f}\n{}SUB\n{}M30\n", (n.z() + 60) / 25.4,
+                                downwards978(n, -40, -30, 25.4), downwards978(n, 30, -20, 25.4))},
+       {"SUB.SPF", downwards978(n, 10, -40, 25.4) + "M17\n"}},
+      "MAIN.MPF", ProgramLanguage::Klartext);
+}
+
+/// What a called program leaves to its caller and a HEIDENHAIN program does not have is named.
+TEST(ConvertJobs, NameAUnitThatACalledProgramLeaves) {
+  Dice dice(11);
+  const Vector3 n = World(dice).nominal();
+  const std::string head = fmt::format("G17 G90 G71 G54\nT1\nM6 D1\nG0 Z{:.6f}\nSUB\n", n.z() + 60);
+  for (const char* after : {"", "G71\n"}) {
+    const Files files = {{"MAIN.MPF", head + after + downwards978(n, 30, -20, 1) + "M30\n"},
+                         {"SUB.SPF", "G700\n" + downwards978(n, 10, -40, 25.4) + "M17\n"}};
+    const JobFolder folder("probewright-job-unit");
+    put(folder, files);
+    EXPECT_EQ(converted(folder, files, ProgramLanguage::Klartext, ".H").has_value(), *after != 0);
+  }
+}
+
+/// RET in the middle of a subprogram.
+TEST(ConvertJobs, ReturnEarly) {
+  Dice dice(11);
+  const Vector3 n = World(dice).nominal();
+  const std::string sub =
+      "IF R1>1\n" + downwards978(n, 30, -20, 1) + "RET\nENDIF\nR1=R1+1\n" + downwards978(n, -40, -30, 1) + "M17\n";
+  expectTheSame({{"MAIN.MPF", fmt::format("G17 G90 G71 G54\nT1\nM6 D1\nG0 Z{:.6f}\nR1=0\nSUB\nSUB\nSUB\nSUB\n{}M30\n",
+                                          n.z() + 60, downwards978(n, 10, -40, 1))},
+                 {"SUB.SPF", sub}},
+                "MAIN.MPF", ProgramLanguage::Klartext);
 }
 
 }  // namespace
