@@ -78,11 +78,18 @@ bool flushFolder(const fs::path& folder) {
   return flushed;
 }
 
-/// Removes a folder of files.
+/// Removes a folder of files. Hidden ones go last, and only if all others are gone: they tell the next run that the
+/// others are not whole, or whose they are. Without them what is left would count as files of an earlier run.
 void removeFolder(const fs::path& folder) {
-  for (const std::string& name : entriesOf(folder))
-    takeAway(folder / name);
-  ::rmdir(folder.c_str());
+  bool emptied = true;
+  const auto takeAll = [&](const auto& which) {
+    for (const std::string& name : entriesOf(folder))
+      if (emptied && which(name)) emptied = takeAway(folder / name);
+  };
+  takeAll([](const std::string& name) { return !name.starts_with('.'); });
+  takeAll([](const std::string& name) { return name != incomplete; });
+  takeAll([](const std::string& name) { return name == incomplete; });
+  if (emptied) ::rmdir(folder.c_str());
 }
 
 // ---- files that are on their way ----
