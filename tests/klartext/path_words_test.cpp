@@ -1,5 +1,6 @@
 #include "language/klartext/path_words.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,6 +14,8 @@
 /// Words that do not belong to their block are refused, by the check and by the run, and never left out in silence.
 namespace probewright::language::klartext::testing {
 namespace {
+
+using ::testing::HasSubstr;
 
 constexpr const char* before = "TOOL CALL 1 Z S100\nL X+20 Y+0 Z+50 R0 FMAX\nL F500\nCC X+0 Y+0\n";
 
@@ -231,6 +234,26 @@ TEST(PathWords, BlocksThatTheITnc530Lacks) {
                             "FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS"})
     EXPECT_EQ(said(block, ControlKind::iTNC530), "nothing") << block;
   EXPECT_EQ(said("CALL PGM", ControlKind::TNC640), "the name of a program is expected after CALL PGM");
+}
+
+/// Called programs are not checked before a run: the run stops at the block.
+TEST(PathWords, BlocksThatTheITnc530LacksStopACalledProgram) {
+  using control::ControlKind;
+  const auto run = [](const std::string& block, ControlKind kind) {
+    World world("mill5-table-table", kind);
+    world.library.texts["SUB.H"] = "BEGIN PGM SUB MM\n" + block + "\nEND PGM SUB MM\n";
+    return world.run("CALL PGM SUB.H\n");
+  };
+  for (const char* block : {"PRESET SELECT #1", "PRESET CORR X+1", "TRANS MIRROR AXIS X", "TRANS ROTATION ROT+5",
+                            "PLANE SPATIAL SPA+0 SPB+0 SPC+0 STAY SYM+"}) {
+    const RunResult old = run(block, ControlKind::iTNC530);
+    ASSERT_EQ(old.end, RunEnd::Alarm) << block;
+    EXPECT_THAT(old.diagnostics.front().message, HasSubstr("the iTNC530 does not have ")) << block;
+    EXPECT_EQ(old.diagnostics.front().place.file, "SUB.H");
+    EXPECT_EQ(old.diagnostics.front().place.line, 2u);
+    EXPECT_EQ(run(block, ControlKind::TNC640).end, RunEnd::Finished) << block;
+  }
+  EXPECT_EQ(run("TRANS DATUM AXIS X+5", ControlKind::iTNC530).end, RunEnd::Finished);
 }
 
 /// A parameter that a cycle has twice is named where it stands, and each of them.

@@ -1,10 +1,14 @@
 #include "execution/klartext/host.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 #include <type_traits>
 
 #include "control/alarm.hpp"
+#include "control/control_kind.hpp"
+#include "language/klartext/control_blocks.hpp"
 #include "language/word_column.hpp"
 
 namespace probewright::execution::klartext {
@@ -33,6 +37,7 @@ KlartextHost::KlartextHost(control::heidenhain::Control& control, HostOptions op
 
 void KlartextHost::execute(const Instruction& instruction, Evaluation& evaluation) {
   try {
+    refuseWhatIsLacked(instruction, evaluation);
     std::visit(
         [&](const auto& each) {
           if constexpr (isFlow<std::remove_cvref_t<decltype(each)>>) {
@@ -46,6 +51,15 @@ void KlartextHost::execute(const Instruction& instruction, Evaluation& evaluatio
     motion_.discard();
     throw;
   }
+}
+
+/// A called program is not checked before the run: its blocks are refused where they stand.
+void KlartextHost::refuseWhatIsLacked(const Instruction& instruction, Evaluation& evaluation) const {
+  const auto lacked = language::klartext::lackedBlock(control_.kind(), evaluation.block(), instruction);
+  if (!lacked) return;
+  throw control::Alarm("Block not permitted",
+                       fmt::format("the {} does not have {}", control::name(control_.kind()), lacked->name),
+                       std::string(lacked->advice));
 }
 
 void KlartextHost::carryOut(const Move& move, Evaluation& evaluation) {

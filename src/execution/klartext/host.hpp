@@ -43,6 +43,7 @@ public:
   bool scans() const { return run_.scans; }
 
 private:
+  void refuseWhatIsLacked(const Instruction& instruction, Evaluation& evaluation) const;
   void carryOut(const Move& move, Evaluation& evaluation);
   void carryOut(const ToolCall& call, Evaluation& evaluation);
   void carryOut(const Modal& modal, Evaluation& evaluation);
