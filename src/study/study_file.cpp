@@ -224,8 +224,14 @@ private:
     }
     if (quantity && !hasPlace(reader, *path)) return;
     bool deviationMissing = false;
+    const std::size_t before = reader.diagnostics().size();
     auto kind = readKind(reader, *path, deviationMissing);
+    const std::size_t ofKind = reader.diagnostics().size();
     reader.finish();
+    // A key that nobody knows may be why another one is missing: it is told first.
+    const auto first = reader.diagnostics().begin();
+    std::rotate(first + static_cast<std::ptrdiff_t>(before), first + static_cast<std::ptrdiff_t>(ofKind),
+                reader.diagnostics().end());
     if (!kind || !quantity) return;
     auto distribution = between ? Distribution::truncated(std::move(*kind), {(*between)[0], (*between)[1]})
                                 : Distribution::make(std::move(*kind));

@@ -18,28 +18,6 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-TEST(Waiting, ForTheTablesOfAnotherRunIsSaid) {
-  const Folder folder;
-  const std::filesystem::path tables = folder / "tables";
-  std::filesystem::create_directories(tables);
-  const std::string world = folder.file("s.toml", "[control]\ntype = \"TNC640\"\ntables = \"tables\"\n");
-  const std::string program = folder.file("a.h", "0 BEGIN PGM A MM\n1 Q1 = 1\n2 END PGM A MM\n");
-  const auto errors = [&](std::chrono::milliseconds held) {
-    auto lock = FolderLock::take(tables, {}, [](const std::filesystem::path&) { return false; });
-    EXPECT_TRUE(lock);
-    std::jthread releasing([&] {
-      std::this_thread::sleep_for(held);
-      const FolderLock released = std::move(*lock);
-    });
-    const Answer answer = probewright({"run", program, "--setup", world, "--out", (folder / "out").string()});
-    EXPECT_EQ(answer.exit, 0) << answer.errors;
-    return answer.errors;
-  };
-  EXPECT_THAT(errors(std::chrono::milliseconds(2600)),
-              HasSubstr("another run is replacing the tables in " + tables.string() + ": waiting for it"));
-  EXPECT_THAT(errors(std::chrono::milliseconds(300)), Not(HasSubstr("waiting")));
-}
-
 /// The program, started with its output in a file, and still running.
 class Started {
 public:
@@ -66,8 +44,12 @@ public:
 
   /// Ctrl-C; the exit code, -1 if it did not end of its own.
   int interrupt() {
-    int status = 0;
     kill(child_, SIGINT);
+    return exit();
+  }
+  /// Waits for its end; the exit code, -1 if it did not end of its own.
+  int exit() {
+    int status = 0;
     waitpid(child_, &status, 0);
     child_ = 0;
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
@@ -76,6 +58,34 @@ public:
 private:
   pid_t child_ = 0;
 };
+
+/// The lock is held until the run has said that it waits: however slow the computer, the run neither says it without
+/// cause nor goes on while the tables are held.
+TEST(Waiting, ForTheTablesOfAnotherRunIsSaid) {
+  const Folder folder;
+  const std::filesystem::path tables = folder / "tables";
+  std::filesystem::create_directories(tables);
+  const std::string world = folder.file("s.toml", "[control]\ntype = \"TNC640\"\ntables = \"tables\"\n");
+  const std::string program = folder.file("a.h", "0 BEGIN PGM A MM\n1 Q1 = 1\n2 END PGM A MM\n");
+  const std::string waits = "another run is replacing the tables in " + tables.string() + ": waiting for it";
+  const std::vector<std::string> words = {"run", program, "--setup", world, "--out", (folder / "out").string()};
+  const Answer alone = probewright(words);
+  EXPECT_EQ(alone.exit, 0) << alone.errors;
+  EXPECT_THAT(alone.errors, Not(HasSubstr("waiting")));
+  std::filesystem::remove_all(folder / "out");
+
+  auto lock = FolderLock::take(tables, {}, [](const std::filesystem::path&) { return false; });
+  ASSERT_TRUE(lock);
+  const std::string output = (folder / "o.txt").string();
+  Started run(words, output);
+  for (int i = 0; i < 6000 && textOf(output).find(waits) == std::string::npos; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_THAT(textOf(output), HasSubstr(waits));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out" / "results.json"));
+  { const FolderLock released = std::move(*lock); }
+  EXPECT_EQ(run.exit(), 0) << textOf(output);
+  EXPECT_TRUE(std::filesystem::exists(folder / "out" / "results.json"));
+}
 
 TEST(Watching, ChecksOnceMoreAfterEachChange) {
   const Folder folder;

@@ -175,6 +175,13 @@ TEST(StudyFile, NamesMistakesWithPlaceAndWayOut) {
               ::testing::HasSubstr("unknown key \"half_width\""));
   EXPECT_THAT(mistakesIn("[[source]]\nquantity = \"part.pose.c\"\ndistribution = \"normal\"\nstandard_deviation = 1\n"),
               ::testing::HasSubstr("the setup does not write part.pose.c"));
+  // A key that is misspelt is told before the one that is missing because of it.
+  Diagnostics both;
+  EXPECT_FALSE(parsed(
+      "[[source]]\nquantity = \"part.pose.c\"\ndistribution = \"normal\"\nstandard_deviation = 1\nmeen = 3\n", both));
+  ASSERT_EQ(both.size(), 2U);
+  EXPECT_THAT(both[0].message, ::testing::HasSubstr("unknown key \"meen\""));
+  EXPECT_THAT(both[1].message, ::testing::HasSubstr("the setup does not write part.pose.c"));
   EXPECT_THAT(mistakesIn("[[source]]\nquantity = \"tool[PROB].ball_radius\"\ndistribution = \"normal\"\nmean = 3\n"
                          "standard_deviation = 1\n"),
               ::testing::HasSubstr("no entry of a list is meant"));
