@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "base/file.hpp"
-#include "base/text.hpp"
 #include "session/setup_check.hpp"
 #include "session/source.hpp"
 
@@ -27,11 +26,7 @@ Diagnostics checkProgram(const std::filesystem::path& path, std::optional<contro
       {.program = **program, .control = *kind, .path = path, .beliefs = beliefs, .skipLevels = skipLevels});
   if (beliefs != nullptr && family.inventory != nullptr) {
     const Inventory inventory = family.inventory(*beliefs, *kind, found);
-    std::vector<std::string> axes;
-    if (machine != nullptr)
-      for (const machine::Axis& axis : machine->axes)
-        axes.push_back(upperCase(axis.name));
-    const Diagnostics more = checkAgainstSetup(**program, inventory, skipLevels, std::move(axes));
+    const Diagnostics more = checkAgainstSetup(**program, inventory, skipLevels, machine);
     found.insert(found.end(), more.begin(), more.end());
     std::ranges::stable_sort(
         found, {}, [&](const Diagnostic& each) { return each.place.file == path.string() ? each.place.line : 0; });

@@ -87,6 +87,8 @@ struct Inventory {
   std::function<std::optional<std::uint32_t>(std::string_view cycle,
                                              const std::function<std::optional<double>(std::uint32_t place)>& number)>
       correctedTool;
+  /// The names of the swivel data sets of CYCLE800, and what is told of them; empty: their names are not known.
+  std::vector<std::string> swivelData;
 };
 
 /// What a control is to run. `beliefs` and `options` outlive the run.

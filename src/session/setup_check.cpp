@@ -1,8 +1,12 @@
 #include "session/setup_check.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,6 +15,7 @@
 #include <vector>
 
 #include "base/number_text.hpp"
+#include "base/text.hpp"
 #include "language/block.hpp"
 #include "language/klartext/commands.hpp"
 
@@ -26,8 +31,15 @@ std::string shown(const NamedItem& item) { return item.name.empty() ? formatShor
 
 class SetupChecker {
 public:
-  SetupChecker(Program& program, const Inventory& inventory, std::bitset<10> skipLevels, std::vector<std::string> axes)
-      : program_(program), inventory_(inventory), skipLevels_(skipLevels), axes_(std::move(axes)) {}
+  SetupChecker(Program& program, const Inventory& inventory, std::bitset<10> skipLevels,
+               const machine::MachineDescription* machine)
+      : program_(program), inventory_(inventory), skipLevels_(skipLevels) {
+    if (machine == nullptr) return;
+    for (const machine::Axis& axis : machine->axes) {
+      axes_.push_back(upperCase(axis.name));
+      tilts_ = tilts_ || axis.kind == machine::AxisKind::Rotary;
+    }
+  }
 
   Diagnostics run() {
     Diagnostics unread;  // mistakes of blocks are told by others
@@ -92,7 +104,63 @@ private:
       tool->number += step->number / (step->number < 10 ? 10 : 100);
     needTool(*tool);
   }
+  bool lacksAxis(std::string_view name) const {
+    return !axes_.empty() && std::ranges::find(axes_, name) == axes_.end();
+  }
+  static bool isAxisLetter(std::uint32_t address) {
+    return address < 256 && std::string_view("XYZABCUVW").find(static_cast<char>(address)) != std::string_view::npos;
+  }
+  static bool isNumberBut(const Word& word, double neutral) {
+    return word.value.isLiteral() && word.value.number != neutral;
+  }
+
+  /// An axis that the machine lacks, moved or changed by this word.
+  void needAxis(const Word& word) {
+    const std::string name = addressName(word.address);
+    report({}, fmt::format("the machine of the setup has no axis {}", name),
+           fmt::format("take {} away, or choose a machine that has it", name), "axis");
+    found_.back().place.column = word.column > 0 ? word.column : found_.back().place.column;
+  }
+  void needRotaryAxes(std::string_view what) {
+    report({}, fmt::format("{} needs rotary axes, and the machine of the setup has none", what),
+           "take the block out, or choose a machine with rotary axes", "tilt");
+  }
+
+  /// Shifts, mirror images and scalings of axes; planes that no machine without rotary axes reaches.
+  void changesOfAxes(const Transform& transform) {
+    using Kind = klartext::TransformKind;
+    const std::string_view name = block_.at(transform.name);
+    const auto is = [&](std::initializer_list<Kind> kinds) {
+      return std::ranges::any_of(kinds, [&](Kind kind) { return name == klartext::nameOf(kind); });
+    };
+    const bool mirrors = is({Kind::Mirror, Kind::TransMirror}) || name == "MIRROR" || name == "AMIRROR";
+    const bool shifts = is({Kind::DatumShift, Kind::TransDatumAxis}) || name == "TRANS" || name == "ATRANS";
+    const bool scales = name == "SCALE" || name == "ASCALE";
+    const bool turns = is({Kind::PlaneAxial});
+    for (const Word& word : wordsOf(transform.words)) {
+      if (!isAxisLetter(word.address) || !lacksAxis(addressName(word.address))) continue;
+      if (mirrors || turns || (shifts && isNumberBut(word, 0)) || (scales && isNumberBut(word, 1))) needAxis(word);
+    }
+    if (axes_.empty() || tilts_ || turns) return;
+    const bool byAngles = is({Kind::Tilting, Kind::PlaneSpatial, Kind::PlaneProjected, Kind::PlaneEuler,
+                              Kind::PlaneRelative, Kind::PlaneVector});
+    const bool tilted = byAngles && std::ranges::any_of(wordsOf(transform.words), [&](const Word& word) {
+                          static constexpr std::array<std::string_view, 9> leaning = {
+                              "A", "B", "SPA", "SPB", "PROP", "PROM", "EULN", "NX", "NY"};
+                          return std::ranges::find(leaning, addressName(word.address)) != leaning.end() &&
+                                 isNumberBut(word, 0) && std::remainder(word.value.number, 360.0) != 0;
+                        });
+    if (tilted) needRotaryAxes("a tilted plane");
+  }
+
+  void look(const MachineFunction& function) {
+    if (function.number == 128 && lacksRotaryAxes()) needRotaryAxes("M128");
+  }
+  /// Of a HEIDENHAIN control.
+  bool lacksRotaryAxes() const { return inventory_.monitoredTool != 0 && !axes_.empty() && !tilts_; }
+
   void look(const Transform& transform) {
+    changesOfAxes(transform);
     if (block_.at(transform.name) != klartext::nameOf(klartext::TransformKind::PresetByCycle)) return;
     for (const Word& word : wordsOf(transform.words)) {
       if (word.address != presetRow) continue;
@@ -100,6 +168,10 @@ private:
     }
   }
   void look(const Command& command) {
+    if (block_.at(command.name) == klartext::nameOf(klartext::CommandKind::PresetCorrection)) {
+      for (const Word& word : wordsOf(command.words))
+        if (isAxisLetter(word.address) && lacksAxis(addressName(word.address))) needAxis(word);
+    }
     if (block_.at(command.name) != klartext::nameOf(klartext::CommandKind::PresetSelect)) return;
     for (const Word& word : wordsOf(command.words)) {
       if (word.address != '#') continue;
@@ -114,8 +186,28 @@ private:
       if (tool && (!tool->name.empty() || tool->number != 0)) needTool(*tool);
     }
   }
+  /// CYCLE800: the name of its data set, and its angles on a machine without rotary axes.
+  void swivels(const CallProgram& call) {
+    for (const Word& word : wordsOf(call.arguments)) {
+      const auto name = word.address == 1 ? named(word.value) : std::nullopt;
+      if (name && name->name == "0") return;  // ends the swivelling
+      const auto isName = [&](const std::string& other) { return upperCase(other) == upperCase(name->name); };
+      if (name && !name->name.empty() && !inventory_.swivelData.empty() &&
+          std::ranges::none_of(inventory_.swivelData, isName)) {
+        report(*name, fmt::format("the setup has no swivel data set \"{}\"", name->name),
+               fmt::format("the setup has {}", fmt::join(inventory_.swivelData, ", ")), "swivel");
+        found_.back().severity = Severity::Warning;  // the run takes another one, and says so
+      }
+    }
+    const bool turned = std::ranges::any_of(wordsOf(call.arguments), [](const Word& word) {
+      return word.address >= 7 && word.address <= 9 && isNumberBut(word, 0);
+    });
+    if (turned && !axes_.empty() && !tilts_) needRotaryAxes("CYCLE800");
+  }
+
   /// A measuring cycle of a SINUMERIK that corrects a tool; it may be named by its number: "3".
   void look(const CallProgram& call) {
+    if (block_.at(call.name) == "CYCLE800") swivels(call);
     if (!inventory_.correctedTool || call.nameValue.present()) return;
     const auto words = wordsOf(call.arguments);
     const auto argument = [&](std::uint32_t place) {
@@ -139,18 +231,12 @@ private:
                                     std::ranges::any_of(wordsOf(modal.words), [](const Word& word) {
                                       return word.address == addressOf("AXIS") && word.value.number == 0;
                                     }));
+    if (block_.at(modal.name) == "FUNCTION TCPM" && lacksRotaryAxes()) needRotaryAxes("FUNCTION TCPM");
   }
   void look(const Move& move) {
-    if (axes_.empty() || move.kind == MoveKind::SetCentre) return;
-    for (const Word& word : wordsOf(move.words)) {
-      const bool letter = word.address < 256 &&
-                          std::string_view("XYZABCUVW").find(static_cast<char>(word.address)) != std::string_view::npos;
-      const std::string name = addressName(word.address);
-      if (!letter || std::ranges::find(axes_, name) != axes_.end()) continue;
-      report({}, fmt::format("the machine of the setup has no axis {}", name),
-             fmt::format("take {} away, or choose a machine that has it", name), "axis");
-      found_.back().place.column = word.column > 0 ? word.column : found_.back().place.column;
-    }
+    if (move.kind == MoveKind::SetCentre) return;
+    for (const Word& word : wordsOf(move.words))
+      if (isAxisLetter(word.address) && lacksAxis(addressName(word.address))) needAxis(word);
   }
   void look(const Assign& assign) {
     const VariableRef& target = block_.variables[static_cast<std::size_t>(assign.variable)];
@@ -169,6 +255,7 @@ private:
   Block block_;
   Diagnostics found_;
   std::vector<std::string> axes_;  ///< of the machine, in capitals; empty: not known
+  bool tilts_ = false;             ///< the machine has rotary axes
   bool makesTools_ = false;
   bool spaceAngles_ = false;
 };
@@ -176,8 +263,8 @@ private:
 }  // namespace
 
 Diagnostics checkAgainstSetup(Program& program, const Inventory& inventory, std::bitset<10> skipLevels,
-                              std::vector<std::string> axes) {
-  return SetupChecker(program, inventory, skipLevels, std::move(axes)).run();
+                              const machine::MachineDescription* machine) {
+  return SetupChecker(program, inventory, skipLevels, machine).run();
 }
 
 }  // namespace probewright::session

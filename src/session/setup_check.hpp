@@ -7,15 +7,16 @@
 
 #include "base/diagnostic.hpp"
 #include "language/program.hpp"
+#include "machine/description.hpp"
 #include "session/control_family.hpp"
 
 namespace probewright::session {
 
-/// What a program names and the control does not have: tools that are called or corrected, rows of the preset table
-/// that are activated, axes that are moved. Only what the text says; names and numbers that the run computes are left
-/// to it. `axes`: of the machine, in capitals; empty: not known.
+/// What a program names and the control or its machine does not have: tools that are called or corrected, rows of the
+/// preset table that are activated, axes that are moved or changed, planes that need rotary axes, swivel data sets.
+/// Only what the text says; names and numbers that the run computes are left to it. `machine`: null if it is not known.
 Diagnostics checkAgainstSetup(language::Program& program, const Inventory& inventory, std::bitset<10> skipLevels = {},
-                              std::vector<std::string> axes = {});
+                              const machine::MachineDescription* machine = nullptr);
 
 /// "the setup has 1 PROBE, 2": the first of them.
 class Listing {

@@ -184,6 +184,59 @@ TEST(Check, KnowsAxesAndCorrectedToolsOfASetup) {
   EXPECT_THAT(corrects(101, 1, "NOTOOL"), Not(HasSubstr("no tool NOTOOL")));
 }
 
+/// What a run on the machine of the setup would refuse: changes of axes that it lacks, planes that it cannot take.
+TEST(Check, KnowsWhatNeedsOtherAxesThanTheSetupHas) {
+  const Folder folder;
+  const std::string tool = "[[tool]]\nnumber = 1\nname = \"PROBE\"\nkind = \"probe\"\nlength = 100\nball_radius = 3\n";
+  const std::string machine = "[machine]\nname = \"mill5-table-table\"\n";
+  const std::string tnc = "[control]\ntype = \"TNC640\"\n" + tool, siemens = "[control]\ntype = \"840Dsl\"\n" + tool;
+  const auto check = [&](const std::string& name, const std::string& text, const std::string& setup) {
+    return probewright({"check", "--setup", folder.file("s.toml", setup), folder.file(name, text)}).errors;
+  };
+  const auto klartext = [](const std::string& block) {
+    return fmt::format("BEGIN PGM A MM\nTOOL CALL 1 Z\n{}\nEND PGM A MM\n", block);
+  };
+  for (const auto& [block, place, said] : std::vector<std::array<std::string, 3>>{
+           {"TRANS DATUM AXIS A+5", "3:18", "the machine of the setup has no axis A"},
+           {"TRANS MIRROR AXIS A", "3:20", "the machine of the setup has no axis A"},
+           {"CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 C+5", "3:14", "the machine of the setup has no axis C"},
+           {"PLANE AXIAL B+10 STAY", "3:13", "the machine of the setup has no axis B"},
+           {"PRESET CORR A+5", "3:13", "the machine of the setup has no axis A"},
+           {"PLANE SPATIAL SPA+0 SPB+10 SPC+0 STAY", "3:1", "a tilted plane needs rotary axes"},
+           {"PLANE RELATIV SPA+10 STAY", "3:1", "a tilted plane needs rotary axes"},
+           {"PLANE VECTOR BX+1 BY+0 BZ+0 NX+0 NY+0.1 NZ+1 STAY", "3:1", "a tilted plane needs rotary axes"},
+           {"CYCL DEF 19.0 WORKING PLANE\nCYCL DEF 19.1 A+10 B+0 C+0", "3:1", "a tilted plane needs rotary axes"},
+           {"M128", "3:1", "M128 needs rotary axes"},
+           {"FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS", "3:1", "FUNCTION TCPM needs rotary axes"}}) {
+    EXPECT_THAT(check("a.h", klartext(block), tnc), HasSubstr(fmt::format("a.h:{}: error: {}", place, said))) << block;
+    EXPECT_EQ(check("a.h", klartext(block), tnc + (block == "PLANE AXIAL B+10 STAY" ? "" : machine)) == "",
+              block != "PLANE AXIAL B+10 STAY")
+        << block;
+  }
+  for (const char* block :
+       {"TRANS DATUM AXIS X+5 A+0", "PLANE SPATIAL SPA+0 SPB+0 SPC+10 STAY", "PLANE SPATIAL SPA+Q1 SPB+0 SPC+0 STAY",
+        "PLANE VECTOR BX+1 BY+0 BZ+0.1 NX+0 NY+0 NZ+1 STAY", "PLANE RESET STAY",
+        "CYCL DEF 19.0 WORKING PLANE\nCYCL DEF 19.1 A+0 B+0 C+0", "M129"})
+    EXPECT_EQ(check("a.h", klartext(block), tnc), "") << block;
+  EXPECT_THAT(check("a.mpf", "TRANS U5\nM30\n", siemens),
+              HasSubstr("a.mpf:1:7: error: the machine of the setup has no axis U"));
+  EXPECT_THAT(check("a.mpf", "MIRROR A0\nM30\n", siemens), HasSubstr("error: the machine of the setup has no axis A"));
+  EXPECT_EQ(check("a.mpf", "TRANS X5 A0\nSCALE X2\nM30\n", siemens), "");
+  const auto swivel = [](const char* name, int angle) {
+    return fmt::format("CYCLE800(1,\"{}\",0,57,0,0,0,{},0,0,0,0,0,-1)\nM30\n", name, angle);
+  };
+  EXPECT_THAT(check("a.mpf", swivel("", 10), siemens), HasSubstr("a.mpf:1:1: error: CYCLE800 needs rotary axes"));
+  EXPECT_EQ(check("a.mpf", swivel("", 0), siemens), "");
+  EXPECT_EQ(check("a.mpf", swivel("", 10), siemens + machine), "");
+  std::filesystem::create_directory(folder / "tables");
+  folder.file("tables/SWIVEL.INI", "$TC_CARR34[1]=\"TABLE\"\nM17\n");
+  const std::string named = "[control]\ntype = \"840Dsl\"\ntables = \"tables\"\n" + tool + machine;
+  EXPECT_THAT(check("a.mpf", swivel("HEAD", 10), named),
+              HasSubstr("a.mpf:1:13: warning: the setup has no swivel data set \"HEAD\""));
+  EXPECT_EQ(check("a.mpf", swivel("table", 10), named), "");
+  EXPECT_EQ(check("a.mpf", swivel("0", 10), named), "");
+}
+
 TEST(Check, KnowsToolsAndPresetsOfASetup) {
   const Folder folder;
   const std::string tool = "[[tool]]\nnumber = 1\nname = \"PROBE\"\nkind = \"probe\"\nlength = 100\nball_radius = 3\n";

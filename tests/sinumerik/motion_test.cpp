@@ -48,6 +48,9 @@ TEST(SinumerikMotion, FeedMustBeProgrammed) {
   world.run("S1000 M3 G95 F0.2\nG1 X20\n");
   EXPECT_EQ(world.machine.moves.back().feed.perMinute, 200);
   EXPECT_EQ(world.alarm("X1 Q5\n"), "12080") << "the machine has no axis Q";
+  for (const char* block : {"TRANS U5", "ATRANS X1 B2", "SCALE Q2", "MIRROR U0", "G58 U3"})
+    EXPECT_EQ(world.alarm(fmt::format("{}\n", block)), "12080") << block;
+  world.run("TRANS X1 U0\nSCALE X1 Q1\nTRANS\n");
 }
 
 TEST(SinumerikMotion, ConstantCuttingSpeedTurnsTheSpindleByTheDiameter) {

@@ -108,6 +108,7 @@ private:
   void carryOutGroup(int group, int number);
   void setSpeed(std::span<const language::Word> words, Evaluation& evaluation);
   void selectEdge(int number);
+  void requireAxisOfFrame(language::sinumerik::FrameChange change, const control::sinumerik::AxisValue& axis) const;
   std::optional<Vector3> poleOrigin(language::sinumerik::FrameChange change) const;
   void leaveLevel();
   void changeTool();

@@ -199,6 +199,18 @@ std::optional<Vector3> SinumerikHost::poleOrigin(FrameChange change) const {
   }
 }
 
+/// Frames shift, scale and mirror axes that the machine has; those that leave an axis alone are let pass.
+void SinumerikHost::requireAxisOfFrame(FrameChange change, const AxisValue& axis) const {
+  const bool turns = change == FrameChange::Turn || change == FrameChange::TurnInSpace;  // these name their own mistake
+  const bool neutral = change == FrameChange::Scale    ? axis.value == 1
+                       : change == FrameChange::Mirror ? false
+                                                       : axis.value == 0;
+  if (turns || neutral || control::sinumerik::geometryAxisOf(axis.axis)) return;
+  if (control_.channel.description().axisIndex(axis.axis)) return;
+  throw Alarm("12080", fmt::format("the machine has no axis {}", axis.axis),
+              "the machine's description names its axes");
+}
+
 void SinumerikHost::carryOut(const Transform& transform, Evaluation& evaluation) {
   motion_.flush();
   const std::string_view name = evaluation.at(transform.name);
@@ -221,6 +233,8 @@ void SinumerikHost::carryOut(const Transform& transform, Evaluation& evaluation)
       axes.push_back({word.address == addressOf("=AX") ? computed : addressName(word.address), value});
     }
   }
+  for (const AxisValue& axis : axes)
+    requireAxisOfFrame(change, axis);
   Frame& programmed = control_.frames.programmed;
   const auto scaleLengths = [&] {
     for (AxisValue& axis : axes)

@@ -50,6 +50,16 @@ int dataSetOf(const Control& control, const std::string& name) {
   return control.carrier == 0 && control::sinumerik::toolCarrier(control.data, 1) ? 1 : control.carrier;
 }
 
+/// A name that no data set has: the control of the machine may have it, this one takes another.
+void warnOfOtherDataSet(Control& control, const std::string& name, int dataSet) {
+  if (name.empty() || control::sinumerik::carrierNamed(control.data, name)) return;
+  const std::string taken = control.data.text("$TC_CARR34", {dataSet});
+  if (taken.empty()) return;
+  control.panel.message(control::EventKind::Warning,
+                        fmt::format("CYCLE800: there is no swivel data set \"{}\"; \"{}\" counts instead", name, taken),
+                        control.channel.seconds());
+}
+
 /// It counts from here on.
 void useDataSet(Control& control, int dataSet) {
   control.carrier = dataSet;
@@ -171,6 +181,7 @@ void swivel(Control& control, const SwivelCall& call) {
     retract(control, call, dataSet);
     return deselectSwivel(control);
   }
+  warnOfOtherDataSet(control, call.dataSet, dataSet);
   const std::vector<std::size_t> axes = rotaryAxes(machine);
   const auto rotation = swivelRotation(call.mode, call.angles);
   if (axes.empty() && (!rotation || !rotation->isIdentity(1e-12)))

@@ -109,6 +109,11 @@ Inventory inventoryOf(const control::Beliefs& beliefs, ControlKind, Diagnostics&
     const bool corrects = variant && target && *target != 0 && static_cast<long>(std::abs(*variant)) / 100 % 10 == 2;
     return corrects ? tool : std::nullopt;
   };
+  for (const control::sinumerik::DataKey& key : data->store.keys("$TC_CARR34")) {
+    const auto value = data->store.get(key);
+    const auto* name = value ? std::get_if<std::string>(&*value) : nullptr;
+    if (name != nullptr && !name->empty()) inventory.swivelData.push_back(*name);
+  }
   constexpr const char* offset = "$SNS_MEA_T_PROBE_OFFSET";
   if (const std::string wrong = cycles::sinumerik::rotationOffsetComplaint(data->store.number(offset, {}));
       !wrong.empty()) {
