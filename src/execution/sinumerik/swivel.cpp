@@ -50,11 +50,13 @@ int dataSetOf(const Control& control, const std::string& name) {
   return control.carrier == 0 && control::sinumerik::toolCarrier(control.data, 1) ? 1 : control.carrier;
 }
 
-/// A name that no data set has: the control of the machine may have it, this one takes another.
+/// A name that no data set has, where the setup names its own: another one counts. A data set that comes of the machine
+/// alone has no name of its own, and stands for any.
 void warnOfOtherDataSet(Control& control, const std::string& name, int dataSet) {
   if (name.empty() || control::sinumerik::carrierNamed(control.data, name)) return;
   const std::string taken = control.data.text("$TC_CARR34", {dataSet});
-  if (taken.empty()) return;
+  const auto ofMachine = control::sinumerik::carrierOf(control.channel.description());
+  if (taken.empty() || (ofMachine && ofMachine->name == taken)) return;
   control.panel.message(control::EventKind::Warning,
                         fmt::format("CYCLE800: there is no swivel data set \"{}\"; \"{}\" counts instead", name, taken),
                         control.channel.seconds());

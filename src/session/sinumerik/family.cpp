@@ -112,7 +112,10 @@ Inventory inventoryOf(const control::Beliefs& beliefs, ControlKind, Diagnostics&
   for (const control::sinumerik::DataKey& key : data->store.keys("$TC_CARR34")) {
     const auto value = data->store.get(key);
     const auto* name = value ? std::get_if<std::string>(&*value) : nullptr;
-    if (name != nullptr && !name->empty()) inventory.swivelData.push_back(*name);
+    control::sinumerik::DataKey kind = key;
+    kind.name = "$TC_CARR23";
+    const bool whole = data->store.isSet(kind);  // else that of the machine takes its place
+    if (whole && name != nullptr && !name->empty()) inventory.swivelData.push_back(*name);
   }
   constexpr const char* offset = "$SNS_MEA_T_PROBE_OFFSET";
   if (const std::string wrong = cycles::sinumerik::rotationOffsetComplaint(data->store.number(offset, {}));
