@@ -202,9 +202,7 @@ std::optional<Vector3> SinumerikHost::poleOrigin(FrameChange change) const {
 /// Frames shift, scale and mirror axes that the machine has; those that leave an axis alone are let pass.
 void SinumerikHost::requireAxisOfFrame(FrameChange change, const AxisValue& axis) const {
   const bool turns = change == FrameChange::Turn || change == FrameChange::TurnInSpace;  // these name their own mistake
-  const bool neutral = change == FrameChange::Scale    ? axis.value == 1
-                       : change == FrameChange::Mirror ? false
-                                                       : axis.value == 0;
+  const bool neutral = change != FrameChange::Mirror && axis.value == (change == FrameChange::Scale ? 1 : 0);
   if (turns || neutral || control::sinumerik::geometryAxisOf(axis.axis)) return;
   if (control_.channel.description().axisIndex(axis.axis)) return;
   throw Alarm("12080", fmt::format("the machine has no axis {}", axis.axis),
