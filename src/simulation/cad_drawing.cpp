@@ -46,7 +46,9 @@ public:
 
   void refine() {
     constexpr int kMostHalvings = 6;
-    for (int i = 0; i < kMostHalvings && !flat_ && halve(); ++i) {
+    // Of a face as large as a hall nobody wants them all.
+    constexpr std::size_t kEnough = 100'000;
+    for (int i = 0; i < kMostHalvings && !flat_ && triangles_.size() < kEnough && halve(); ++i) {
     }
   }
 

@@ -158,7 +158,7 @@ private:
       lost_.emplace_back(rest);
     } else if (word == "suspect") {
       const auto [label, reason] = firstWord(rest);
-      suspects_.push_back({std::string(label), std::string(reason)});
+      suspects_.push_back({std::string(label), plainReason(std::string(reason))});
     } else if (word == "grid") {
       const auto [face, more] = firstWord(rest);
       const auto [cell, surface] = firstWord(more);
@@ -168,7 +168,7 @@ private:
       gaps_.push_back({std::string(label), std::string(size)});
     } else if (word == "misplaced") {
       const auto [label, reason] = firstWord(rest);
-      misplaced_.push_back({std::string(label), std::string(reason)});
+      misplaced_.push_back({std::string(label), plainReason(std::string(reason))});
     } else if (word == "unitless") {
       unitless_ = rest;
     } else if (word == "unused") {
@@ -182,7 +182,7 @@ private:
     } else if (word == "open") {
       edges_ = rest;
     } else if (word == "failed") {
-      failure_ = rest;
+      failure_ = plainReason(std::string(rest));
     } else if (word == "skin") {
       skin_ = true;
     } else if (word == "nothing") {
@@ -234,6 +234,13 @@ private:
       return mistake(0, "it holds triangles only (a tessellated model of AP242), no exact surfaces",
                      "export the part with exact geometry (B-rep), or as STL");
     }
+    if (names_->holdsNoFace()) return names_->holdsConstructions() ? constructed() : faceless();
+    if (!suspects_.empty() && names_->overlongLine() != 0) {
+      return mistake(names_->overlongLine(),
+                     "its parameters go beyond column 64, where IGES has the number of the directory entry",
+                     "the system that wrote the file does not keep to IGES; export the part as STEP, or with another "
+                     "system");
+    }
     if (!suspects_.empty()) {
       const Suspect& first = suspects_.front();
       return mistake(names_->lineOf(first.label), fmt::format("{}: {}", names_->nameOf(first.label), first.reason),
@@ -262,8 +269,34 @@ private:
                                  unused_.size, names_->nameOf(unused_.label)),
                      "export the part again as a solid body (AP203, AP214 or AP242)");
     }
+    return faceless();
+  }
+
+  Diagnostic constructed() const {
+    return mistake(0, "its bodies are put together of simple solids (CSG), not of faces",
+                   "export the part with exact faces (B-rep)");
+  }
+
+  Diagnostic faceless() const {
+    std::string files;
+    constexpr std::string_view kReference = "DOCUMENT_FILE('";
+    for (std::size_t at = 0, count = 0; (at = order_.bytes.find(kReference, at)) != std::string::npos;) {
+      at += kReference.size();
+      const std::size_t end = std::min(order_.bytes.find('\'', at), order_.bytes.size());
+      if (end == at) continue;
+      if (++count > 3) {
+        files += " ...";
+        break;
+      }
+      files += fmt::format("{}\"{}\"", files.empty() ? "" : ", ", order_.bytes.substr(at, end - at));
+    }
+    if (!files.empty()) {
+      return fail({order_.file, 0, 0}, "the file holds no body and no face; its parts are in other files: " + files,
+                  "export the assembly as one file, or name the file of a part")
+          .value();
+    }
     return fail({order_.file, 0, 0}, "the file holds no body and no face",
-                "export the part as a solid body, not as a drawing, wire frame or empty assembly")
+                "export the part as a solid body, not as a drawing, wire frame, finite elements or empty assembly")
         .value();
   }
 

@@ -52,6 +52,7 @@ public:
       std::istringstream stream(withCapitalExponents(bytes_));
       return StepSelect_WorkLibrary::ReadStream(name, stream, model, protocol);
     }
+    records->joinShapes();
     records->dropAnnotations();
     const Handle(StepData_StepModel) made = new StepData_StepModel;
     load(*records, made, step);

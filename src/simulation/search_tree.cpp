@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #define PROBEWRIGHT_HAS_WIDE
@@ -128,9 +129,12 @@ struct SearchTree::Walks {
 
 #define PROBEWRIGHT_INLINE [[gnu::always_inline]] static inline
 
-  using Unaligned = float __attribute__((vector_size(32), aligned(4), may_alias));
-  PROBEWRIGHT_INLINE void store(float* to, const Lanes& from) { *reinterpret_cast<Unaligned*>(to) = from; }
-  PROBEWRIGHT_INLINE Lanes load(const float* from) { return *reinterpret_cast<const Unaligned*>(from); }
+  PROBEWRIGHT_INLINE void store(float* to, const Lanes& from) { std::memcpy(to, &from, sizeof from); }
+  PROBEWRIGHT_INLINE Lanes load(const float* from) {
+    Lanes lanes;
+    std::memcpy(&lanes, from, sizeof lanes);
+    return lanes;
+  }
   PROBEWRIGHT_INLINE Lanes every(float x) { return Lanes{} + x; }
   /// Asks for cache lines that will be needed soon.
   template <std::size_t Bytes>

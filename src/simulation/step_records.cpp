@@ -288,6 +288,27 @@ std::vector<std::size_t> StepRecords::referencesOf(const Entity& entity) const {
   return numbers;
 }
 
+void StepRecords::joinShapes() {
+  constexpr std::string_view kRelationship = "MECHANICAL_DESIGN_AND_DRAUGHTING_RELATIONSHIP";
+  std::unordered_map<std::size_t, std::string_view> typeOf;
+  std::unordered_map<std::size_t, int> users;
+  std::vector<std::pair<std::size_t, std::vector<std::size_t>>> relationships;
+  for (const Entity& entity : entities_) {
+    typeOf.emplace(entity.number, records_[entity.head].type);
+    const std::vector<std::size_t> references = referencesOf(entity);
+    for (const std::size_t number : references)
+      ++users[number];
+    if (records_[entity.head].type == kRelationship && references.size() == 2)
+      relationships.emplace_back(entity.head, references);
+  }
+  for (const auto& [head, ends] : relationships) {
+    const auto isShape = [&](std::size_t number) { return typeOf[number].ends_with("SHAPE_REPRESENTATION"); };
+    const auto isAlone = [&](std::size_t number) { return users[number] == 1; };
+    if (std::ranges::all_of(ends, isShape) && std::ranges::any_of(ends, isAlone))
+      records_[head].type = "SHAPE_REPRESENTATION_RELATIONSHIP";
+  }
+}
+
 void StepRecords::dropAnnotations() {
   static constexpr std::string_view kDrawing = "DRAUGHTING_MODEL";
   constexpr std::array<std::string_view, 11> kAbout{"DRAUGHTING_MODEL_ITEM_ASSOCIATION",

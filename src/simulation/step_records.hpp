@@ -41,6 +41,10 @@ public:
   const std::vector<Argument>& arguments() const { return arguments_; }
   std::size_t headerRecords() const { return header_; }
 
+  /// Some systems (AP242 of CATIA) tie the shape of a product to its body by a relationship that is meant for drawings;
+  /// where nothing else does, it becomes the one for shapes, which OpenCASCADE looks at.
+  void joinShapes();
+
   /// Drops what only annotations and colours refer to: half of a file with product and manufacturing information, and
   /// nothing that a shape is made of.
   void dropAnnotations();

@@ -210,9 +210,18 @@ std::string withCapitalExponents(std::string bytes) {
 Result<StepText> scanStep(std::string_view bytes, const std::string& file, const std::stop_token& stop) {
   constexpr std::string_view mark = "\xEF\xBB\xBF";
   if (bytes.starts_with(mark)) bytes.remove_prefix(mark.size());
-  const std::size_t start = bytes.find_first_not_of(" \t\r\n");
-  if (start == std::string_view::npos) return fail({file, 0, 0}, "the STEP file is empty", "export the part again");
-  if (!bytes.substr(start).starts_with("ISO-10303-21")) {
+  std::string_view content = bytes;
+  const auto skipBlanks = [&] {
+    content.remove_prefix(std::min(content.find_first_not_of(" \t\r\n"), content.size()));
+  };
+  skipBlanks();
+  // Comments may stand anywhere, also before the first word.
+  while (content.starts_with("/*") && content.find("*/", 2) != std::string_view::npos) {
+    content.remove_prefix(content.find("*/", 2) + 2);
+    skipBlanks();
+  }
+  if (content.empty()) return fail({file, 0, 0}, "the STEP file is empty", "export the part again");
+  if (!content.starts_with("ISO-10303-21")) {
     return fail({file, 1, 1}, "not a STEP file: it does not begin with ISO-10303-21",
                 "export the part as STEP (AP203, AP214 or AP242), or name an IGES or STL file with its own extension");
   }
