@@ -2,9 +2,7 @@
 
 #include <StepGeom_Axis1Placement.hxx>
 #include <StepGeom_Axis2Placement3d.hxx>
-#include <StepGeom_CartesianPoint.hxx>
 #include <StepGeom_ConicalSurface.hxx>
-#include <StepGeom_Direction.hxx>
 #include <StepGeom_Line.hxx>
 #include <StepGeom_OffsetSurface.hxx>
 #include <StepGeom_SurfaceOfRevolution.hxx>
@@ -17,50 +15,14 @@
 #include <StepShape_OrientedEdge.hxx>
 #include <StepShape_VertexLoop.hxx>
 #include <StepShape_VertexPoint.hxx>
-#include <TColStd_HArray1OfReal.hxx>
-#include <TCollection_HAsciiString.hxx>
 #include <cmath>
 #include <optional>
 
-#include "geometry/primitives.hpp"
 #include "simulation/cad_units.hpp"
+#include "simulation/step_places.hpp"
 
 namespace probewright::simulation {
 namespace {
-
-Handle(TCollection_HAsciiString) noName() { return new TCollection_HAsciiString(""); }
-
-std::optional<Vector3> vectorOf(const Handle(StepGeom_CartesianPoint) & point) {
-  if (point.IsNull() || point->NbCoordinates() < 3) return std::nullopt;
-  return Vector3(point->CoordinatesValue(1), point->CoordinatesValue(2), point->CoordinatesValue(3));
-}
-
-std::optional<Vector3> unitOf(const Handle(StepGeom_Direction) & direction) {
-  if (direction.IsNull() || direction->NbDirectionRatios() < 3) return std::nullopt;
-  const Vector3 ratios(direction->DirectionRatiosValue(1), direction->DirectionRatiosValue(2),
-                       direction->DirectionRatiosValue(3));
-  if (!(ratios.norm() > 1e-12)) return std::nullopt;
-  return ratios.normalized();
-}
-
-Handle(TColStd_HArray1OfReal) arrayOf(const Vector3& v) {
-  const Handle(TColStd_HArray1OfReal) array = new TColStd_HArray1OfReal(1, 3);
-  for (int i = 1; i <= 3; ++i)
-    array->SetValue(i, v[i - 1]);
-  return array;
-}
-
-Handle(StepGeom_CartesianPoint) pointAt(const Vector3& place) {
-  const Handle(StepGeom_CartesianPoint) point = new StepGeom_CartesianPoint;
-  point->Init(noName(), arrayOf(place));
-  return point;
-}
-
-Handle(StepGeom_Direction) along(const Vector3& unit) {
-  const Handle(StepGeom_Direction) direction = new StepGeom_Direction;
-  direction->Init(noName(), arrayOf(unit));
-  return direction;
-}
 
 Handle(StepGeom_Surface) cone(const Handle(StepGeom_Axis2Placement3d) & axes, double radius, double semiAngle) {
   const Handle(StepGeom_ConicalSurface) made = new StepGeom_ConicalSurface;

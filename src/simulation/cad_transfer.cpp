@@ -53,6 +53,7 @@
 #include "simulation/cad_kinks.hpp"
 #include "simulation/cad_model.hpp"
 #include "simulation/cad_step_library.hpp"
+#include "simulation/cad_tori.hpp"
 #include "simulation/cad_units.hpp"
 #include "simulation/face_mesh.hpp"
 #include "simulation/parallel.hpp"
@@ -215,6 +216,7 @@ TopoDS_Shape build(XSControl_Reader& reader, const ChildVoice& voice) {
   const Handle(Interface_InterfaceModel) model = reader.WS()->Model();
   takePlainOffsets(model);
   turnOffsets(model);
+  turnArcs(model);
   const int roots = reader.NbRootsForTransfer();
   for (int i = 1; i <= roots; ++i) {
     voice.say("at " + labelOf(model, reader.RootForTransfer(i)));

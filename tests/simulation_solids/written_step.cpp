@@ -143,8 +143,8 @@ double Meridian::distance(const Vector3& point) const {
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Piece& a = pieces[i];
     const Piece& b = pieces[(i + 1) % pieces.size()];
-    if (a.r == 0 && b.r == 0 && !a.isArc) continue;
     nearest = std::min(nearest, std::hypot(r - a.r, z - a.z));
+    if (a.r == 0 && b.r == 0 && !a.isArc) continue;
     if (a.isArc) {
       const Arc arc = arcOf(a, b);
       const double turn = std::atan2(z - a.centreZ, r - a.centreR) - arc.first;
@@ -319,6 +319,13 @@ private:
       const int axes = file_.axes(at(0, a.centreZ, 0), up(), radial(from));
       if (a.centreR == 0)
         return {file_.add(fmt::format("SPHERICAL_SURFACE('',#{},{})", axes, file_.length(radius))), a.anticlockwise};
+      if (std::abs(a.centreR) < radius) {
+        // A torus that meets itself has two surfaces: the one about the axis is of an arc about beyond it.
+        return {file_.add(fmt::format("DEGENERATE_TOROIDAL_SURFACE('',#{},{},{},{})", axes,
+                                      file_.length(std::abs(a.centreR)), file_.length(radius),
+                                      a.centreR > 0 ? ".T." : ".F.")),
+                a.anticlockwise};
+      }
       return {
           file_.add(fmt::format("TOROIDAL_SURFACE('',#{},{},{})", axes, file_.length(a.centreR), file_.length(radius))),
           a.anticlockwise};
