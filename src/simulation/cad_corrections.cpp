@@ -126,16 +126,6 @@ void acceptMissingTexts(const Handle(Interface_InterfaceModel) & model) {
   }
 }
 
-Handle(Standard_Transient) endlessPoint(const Handle(Interface_InterfaceModel) & model) {
-  for (int i = 1; i <= model->NbEntities(); ++i) {
-    const auto point = Handle(StepGeom_CartesianPoint)::DownCast(model->Value(i));
-    for (int k = 1; !point.IsNull() && k <= point->NbCoordinates(); ++k) {
-      if (!std::isfinite(point->CoordinatesValue(k))) return Handle(Standard_Transient)(point);
-    }
-  }
-  return {};
-}
-
 Handle(Standard_Transient) misreadPlacement(const Handle(Interface_InterfaceModel) & model) {
   for (int i = 1; i <= model->NbEntities(); ++i) {
     const auto placement = Handle(StepGeom_CartesianTransformationOperator3d)::DownCast(model->Value(i));

@@ -11,10 +11,6 @@ namespace probewright::simulation {
 /// faults.
 void acceptMissingTexts(const Handle(Interface_InterfaceModel) & model);
 
-/// A point of STEP with a coordinate beyond all numbers, 1.E400; null if there is none. OpenCASCADE may go round in
-/// it for ever.
-Handle(Standard_Transient) endlessPoint(const Handle(Interface_InterfaceModel) & model);
-
 /// A placement that mirrors or scales, of STEP, or that scales, of IGES; null if there is none. OpenCASCADE takes a
 /// scale for its inverse or none and a mirror for a rotation.
 Handle(Standard_Transient) misreadPlacement(const Handle(Interface_InterfaceModel) & model);

@@ -101,6 +101,10 @@ private:
   void beginText() {
     if (text_.valid() || names_ || wrongText_) return;
     text_ = std::async(std::launch::async, [this]() -> Result<StepText> {
+      if (const auto number = endlessNumber(order_.bytes)) {
+        return tl::unexpected(mistake(number->line, fmt::format("the number {} is too large", number->text),
+                                      "the file is damaged there; export or copy the part again"));
+      }
       if (order_.format == CadFormat::Iges) return StepText{};
       return scanStep(order_.bytes, order_.file, options_.stop);
     });

@@ -166,13 +166,6 @@ std::unique_ptr<XSControl_Reader> load(const TransferOrder& order, const ChildVo
     nameFaults(model, voice);
   }
   if (status == IFSelect_RetDone) {
-    if (const auto point = endlessPoint(model); !point.IsNull()) {
-      voice.say(
-          fmt::format("unable {} a coordinate is too large for a number|the file is damaged in this entity; export "
-                      "or copy the part again",
-                      labelOf(model, point)));
-      return nullptr;
-    }
     if (const auto placement = misreadPlacement(model); !placement.IsNull()) {
       voice.say(
           fmt::format("unable {} it mirrors or scales a part, which cannot be read|export mirrored and scaled parts "

@@ -196,6 +196,34 @@ std::uint64_t circularEntity(const StepText& text) {
   return at;
 }
 
+std::optional<EndlessNumber> endlessNumber(std::string_view bytes) {
+  constexpr std::string_view kParts = "0123456789.+-", kEnds = ",;() \t\r\n=";
+  constexpr std::size_t kFewest = 3;  // digits of such an exponent
+  constexpr std::size_t kSection = 72;
+  for (std::size_t at = 0; (at = bytes.find_first_of("EeDd", at)) != std::string_view::npos; ++at) {
+    const std::size_t before = bytes.find_last_not_of(kParts, at == 0 ? 0 : at - 1);
+    const std::size_t first = before == std::string_view::npos ? 0 : before + 1;
+    const std::size_t last = std::min(bytes.find_first_not_of(kParts, at + 1), bytes.size());
+    if (first >= at || last < at + 1 + kFewest || bytes[at + 1] == '-') continue;
+    // In a directory of IGES, D in column 73 is the section.
+    const std::size_t lineEnd = bytes.find_last_of('\n', at);
+    if (bytes[at] == 'D' && at - (lineEnd == std::string_view::npos ? 0 : lineEnd + 1) == kSection) continue;
+    if (first > 0 && kEnds.find(bytes[first - 1]) == std::string_view::npos) continue;
+    if (last < bytes.size() && kEnds.find(bytes[last]) == std::string_view::npos) continue;
+    const std::string_view text = bytes.substr(first, last - first);
+    std::string number(text);
+    number[at - first] = 'E';
+    if (number.starts_with('+')) number.erase(0, 1);
+    if (const std::size_t plus = number.find("E+"); plus != std::string::npos) number.erase(plus + 1, 1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+    if (error != std::errc::result_out_of_range || end != number.data() + number.size()) continue;
+    const auto lines = std::count(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(first), '\n');
+    return EndlessNumber{text, 1 + static_cast<std::uint64_t>(lines)};
+  }
+  return std::nullopt;
+}
+
 std::string withCapitalExponents(std::string bytes) {
   bool inText = false;
   for (std::size_t i = 1; i + 1 < bytes.size(); ++i) {

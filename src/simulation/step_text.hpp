@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -33,6 +34,15 @@ std::uint64_t circularEntity(const StepText& text);
 /// deeper than any part needs or never closed, texts without an end, two entities of one number. What stands between
 /// the brackets is not looked at. `bytes` must outlive the result. A stop ends it with a mistake.
 Result<StepText> scanStep(std::string_view bytes, const std::string& file, const std::stop_token& stop = {});
+
+/// A number that is larger than all that can be computed with, 1.E400, and its line.
+struct EndlessNumber {
+  std::string_view text;
+  std::uint64_t line = 0;
+};
+
+/// The first one in a STEP or IGES file, between commas or brackets. OpenCASCADE may go round in it for ever.
+std::optional<EndlessNumber> endlessNumber(std::string_view bytes);
 
 /// The text of a STEP file with the exponents of its numbers in capitals, 1.E-5: OpenCASCADE takes 1.e-5 for 1.
 std::string withCapitalExponents(std::string bytes);
