@@ -206,7 +206,7 @@ std::optional<EndlessNumber> endlessNumber(std::string_view bytes) {
     const std::size_t last = std::min(bytes.find_first_not_of(kParts, at + 1), bytes.size());
     if (first >= at || last < at + 1 + kFewest || bytes[at + 1] == '-') continue;
     // In a directory of IGES, D in column 73 is the section.
-    const std::size_t lineEnd = bytes.find_last_of('\n', at);
+    const std::size_t lineEnd = bytes.find_last_of("\r\n", at);
     if (bytes[at] == 'D' && at - (lineEnd == std::string_view::npos ? 0 : lineEnd + 1) == kSection) continue;
     if (first > 0 && kEnds.find(bytes[first - 1]) == std::string_view::npos) continue;
     if (last < bytes.size() && kEnds.find(bytes[last]) == std::string_view::npos) continue;

@@ -131,7 +131,8 @@ TEST(Refusals, NameNumbersThatAreTooLarge) {
   std::string named = pinFile();
   named.replace(named.find("PRODUCT('part'"), 14, "PRODUCT('p1E400'");
   EXPECT_EQ(saidOf(named), "");
-  EXPECT_FALSE(endlessNumber("\n" + fmt::format("{:>64}00010000D0000307\n", "")));
+  for (const std::string end : {"\n", "\r\n", "\r"})
+    EXPECT_FALSE(endlessNumber(end + fmt::format("{:>64}00010000D0000307{}", "", end)));
   for (const std::string fine : {"1.E308", "1.E-400", "-2.D+300", "1E", "E400", "#1E999x"})
     EXPECT_FALSE(endlessNumber("(" + fine + ")")) << fine;
   for (const std::string endless : {"1.E309", "-1.5E+400", "2D1000", "+1E99999999999"})
