@@ -6,8 +6,11 @@
 namespace probewright::simulation {
 namespace {
 
+/// Two triangles meet the ball at the same time on their common edge, each in a point of its own in the last digit. Of
+/// these the one that is smaller in its first different coordinate counts, whichever triangle is looked at first.
 bool keep(Meeting& best, double when, const Vector3& point, const Vector3& normal = Vector3::Zero()) {
-  if (!(when < best.when)) return false;
+  if (!(when <= best.when)) return false;
+  if (when == best.when && !std::ranges::lexicographical_compare(point, best.point)) return false;
   best = {when, point, normal};
   return true;
 }
@@ -18,11 +21,11 @@ double square(double value) { return value * value; }
 bool approachPoint(const Way& way, double radius, const Vector3& point, Meeting& best) {
   const Vector3 m = way.start - point;
   const double b = m.dot(way.direction);
-  if (b >= 0 || -b - radius >= best.when) return false;
+  if (b >= 0 || -b - radius > best.when) return false;
   const double halfChordSquared = square(radius) - (m - b * way.direction).squaredNorm();
   if (halfChordSquared <= 2 * kTouchTolerance * radius) return false;
   const double when = std::max(0.0, -b - std::sqrt(halfChordSquared));
-  if (when >= std::min(best.when, way.length)) return false;
+  if (when > best.when || when >= way.length) return false;
   if (way.length < -b && (m + way.length * way.direction).norm() >= radius - kTouchTolerance) return false;
   return keep(best, when, point);
 }
@@ -46,7 +49,7 @@ bool approachSegment(const Way& way, double radius, const Vector3& a, const Vect
   const double halfChordSquared = square(radius) - (mAcross + nearest * dAcross).squaredNorm();
   if (halfChordSquared <= 2 * kTouchTolerance * radius) return false;
   const double when = std::max(0.0, nearest - std::sqrt(halfChordSquared / speedSquared));
-  if (when >= std::min(best.when, way.length)) return false;
+  if (when > best.when || when >= way.length) return false;
   const double along = mAlong + when * dAlong;
   if (along < 0 || along > 1) return false;
   if (way.length < nearest && (mAcross + way.length * dAcross).norm() >= radius - kTouchTolerance) return false;
@@ -77,8 +80,8 @@ bool approachTriangle(const Way& way, double radius, const Triangle& t, const Pl
     const double side = plane.height < 0 ? -1 : 1;
     const double approach = -side * plane.normal.dot(way.direction);
     if (gap - approach * way.length >= -kTouchTolerance || approach <= 0) return false;
-    if (gap >= best.when * approach) return false;
     const double when = std::max(0.0, gap / approach);
+    if (when > best.when) return false;
     const Vector3 foot = way.at(when) - side * radius * plane.normal;
     // From here on the ball cuts a growing disc out of the plane. It can meet an edge first only while its middle is
     // outside that edge, at the beginning or by the end.
@@ -217,7 +220,7 @@ bool sweepTriangle(const Way& way, double radius, const Triangle& t, Meeting& be
       const bool onFace = std::abs(plane.normal.dot(arm)) > (1 - 1e-12) * distance;
       return keep(best, distance - radius, closest, onFace ? plane.normal : Vector3::Zero());
     }
-    if (distance - radius >= std::min(best.when, way.length)) return false;
+    if (distance - radius > best.when || distance - radius >= way.length) return false;
   }
   return approachTriangle(way, radius, t, plane, best);
 }
@@ -226,10 +229,10 @@ bool sweepCapsule(const Way& way, double radius, const Vector3& axis, const Tria
   const Nearest atStart = nearestToSegment(way.start, axis, t);
   const double gap = atStart.distance - radius;
   if (gap < -kTouchTolerance) return keep(best, gap, atStart.onTriangle);
-  if (gap >= std::min(best.when, way.length)) return false;
+  if (gap > best.when || gap >= way.length) return false;
   // The end p meets the triangle swept backwards along the axis: a prism.
   const Triangle far{t[0] - axis, t[1] - axis, t[2] - axis};
-  Meeting meeting{best.when, {}, {}};
+  Meeting meeting{best.when, Vector3::Constant(1e300), {}};  // another at the same time counts
   bool met = approachTriangle(way, radius, t, meeting);
   met |= approachTriangle(way, radius, far, meeting);
   for (std::size_t i = 0; i < 3; ++i) {

@@ -34,7 +34,9 @@ struct Meeting {
 using Triangle = std::array<Vector3, 3>;
 
 /// Each of these puts the meeting with its element into `best` if that is earlier than what is there, and returns
-/// whether it did. A ball meets an element where it would go on to overlap it by more than kTouchTolerance.
+/// whether it did. Of two at exactly the same time the one with the smaller X counts, then the smaller Y, then the
+/// smaller Z: the result does not depend on the order of the elements. A ball meets an element where it would go on to
+/// overlap it by more than kTouchTolerance.
 bool sweepPoint(const Way& way, double radius, const Vector3& point, Meeting& best);
 bool sweepSegment(const Way& way, double radius, const Vector3& a, const Vector3& b, Meeting& best);
 bool sweepTriangle(const Way& way, double radius, const Triangle& triangle, Meeting& best);

@@ -196,6 +196,33 @@ TEST_P(SearchWith, PressesABallIntoAPlaneOfManyTrianglesInClosedForm) {
   }
 }
 
+TEST_P(SearchWith, FindsTheSamePointWhicheverTriangleItLooksAtFirst) {
+  // Over ridges the ball meets the common edge of two triangles at the same time. From either of them that edge gives
+  // a point of its own in the last digit: only one may win, in whatever order a walk, or no walk at all, comes to them.
+  std::mt19937_64 random(19);
+  int onEdges = 0;
+  for (int i = 0; i < 20; ++i) {
+    const std::vector<SearchElement> elements = landscape(random, 10, 100);
+    const std::vector<SearchElement> backwards(elements.rbegin(), elements.rend());
+    const SearchTree tree(elements, Elements::Triangles, GetParam());
+    for (int way = 0; way < 500; ++way) {
+      Mover mover;
+      mover.radius = uniform(random, 0.5, 4);
+      if (way % 5 == 0) mover.axis = uniform(random, 1, 40) * Vector3::UnitZ();
+      const Triangle& t = elements[random() % elements.size()].corners;
+      const Vector3 goal = t[0] + uniform(random, 0, 1) * (t[way % 2 == 0 ? 1 : 2] - t[0]);
+      mover.way = wayBetween(goal + 40 * (Vector3::UnitZ() + 0.7 * randomDirection(random)).normalized(), goal);
+      const Meeting expected = meetingWithAny(elements, mover);
+      onEdges += mover.axis.isZero() && expected.normal.isZero() ? 1 : 0;
+      for (const Meeting& other : {meetingWithAny(backwards, mover), meetingFound(tree, mover)}) {
+        ASSERT_EQ(other.when, expected.when) << way;
+        ASSERT_EQ(other.point, expected.point) << way;
+      }
+    }
+  }
+  EXPECT_GT(onEdges, 300);
+}
+
 TEST_P(SearchWith, VisitsEachOnceHoweverManyAreNearAtOnce) {
   // A ball as large as everything: no box can be left out, and none is nearer than another.
   std::mt19937_64 random(18);
