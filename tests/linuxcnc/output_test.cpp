@@ -125,7 +125,10 @@ def process():
     while time.monotonic() < end:
         try: return engine()
         except RuntimeError: pass
-def alive(number): return os.path.exists(f'/proc/{number}') and open(f'/proc/{number}/stat').read().split()[2] != 'Z'
+def alive(number):
+    try:
+        with open(f'/proc/{number}/stat') as file: return file.read().split()[2] != 'Z'
+    except (FileNotFoundError, ProcessLookupError): return False
 def once():
     desk.mdi('G53 G0 Z0')
     fresh()
