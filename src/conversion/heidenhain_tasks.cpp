@@ -88,11 +88,15 @@ private:
     return !(q(number) == 0);
   }
 
-  /// The limits of a size as its cycle takes them: 0 and 0 are none.
-  std::optional<Limits> limitsOf(int upper, int lower, const Quantity& size) const {
+  enum class Alone { Each, Both };
+  /// The limits of a size as its cycle takes them: 0 and 0 are none. 0 alone is a limit of a coordinate (Both), but
+  /// none of a size (Each).
+  std::optional<Limits> limitsOf(int upper, int lower, const Quantity& size, Alone none = Alone::Each) const {
     const Quantity most = q(upper), least = q(lower);
     if (most == 0 && least == 0) return std::nullopt;
     Limits limits{most - size, least - size};
+    if (none == Alone::Each && most == 0) limits.upper = unlimited;
+    if (none == Alone::Each && least == 0) limits.lower = -unlimited;
     const auto isSet = [](const Quantity& each) { return each.isNumber() && !(each == 0); };
     if (isSet(most) || isSet(least)) return limits;
     for (const Quantity& each : {most, least})
@@ -422,7 +426,8 @@ private:
 
   std::vector<MeasuringTask> inspection(MeasuringTask task, const std::vector<LimitNumbers>& limits) {
     for (std::size_t i = 0; i < limits.size(); ++i)
-      task.limits[i] = limitsOf(limits[i].upper, limits[i].lower, task.size[i]);
+      task.limits[i] = limitsOf(limits[i].upper, limits[i].lower, task.size[i],
+                                task.feature == Feature::Surface ? Alone::Both : Alone::Each);
     task.centreTolerance = {q(279), q(280)};
     task.stops = asked(309);
     log(task);

@@ -158,6 +158,7 @@ void ToSinumerik::judgePattern(const Block& block, const MeasuringTask& pattern,
     const Quantity deviation = Quantity::of(diameter) - pattern.size[0];
     const Limits& limits = *pattern.limits[0];
     for (const auto& [sign, limit] : {std::pair('>', &limits.upper), std::pair('<', &limits.lower)}) {
+      if (*limit == unlimited || *limit == -unlimited) continue;
       scrap.push_back(onlyUnlessZero(limits.unlessZero,
                                      fmt::format("({}{}{})", sinumerikText(deviation), sign, sinumerikText(*limit))));
     }

@@ -11,6 +11,7 @@
 #include "control/alarm.hpp"
 #include "conversion/call.hpp"
 #include "conversion/sinumerik_formulas.hpp"
+#include "cycles/catalogue.hpp"
 #include "language/klartext/formula_writer.hpp"
 
 namespace probewright::conversion {
@@ -34,6 +35,27 @@ bool isParameter(std::string_view text) {
 
 constexpr int results = 32;  ///< _OVR[0] to _OVR[31]
 
+/// Q100 to Q199, which the control and its cycles fill, and what touch probe cycles take and leave beyond.
+bool belongsToCycles(int number) {
+  static const std::set<int> taken = [] {
+    std::set<int> all;
+    const auto add = [&](std::string_view name) {
+      if (isParameter(name) && isDigit(name[1])) all.insert(truncated(parseDecimal(name.substr(1)).value_or(0)));
+    };
+    for (const auto kind : {control::ControlKind::TNC640, control::ControlKind::iTNC530}) {
+      for (const cycles::CycleDefinition* cycle : cycles::cyclesOf(kind)) {
+        for (const cycles::Parameter& each : cycle->parameters)
+          add(each.name);
+        for (const cycles::ResultDefinition& each : cycle->results)
+          add(each.name);
+      }
+    }
+    return all;
+  }();
+  constexpr int firstFilled = 100, lastFilled = 199;
+  return (number >= firstFilled && number <= lastFilled) || taken.contains(number);
+}
+
 }  // namespace
 
 bool KlartextFormulas::namesParameter(std::string_view variable) {
@@ -42,7 +64,8 @@ bool KlartextFormulas::namesParameter(std::string_view variable) {
   // The others stand for R parameters, results and intermediate values.
   const int number = truncated(parseDecimal(variable.substr(2)).value_or(0));
   const auto within = [&](int first, int last) { return number >= first && number <= last; };
-  return within(100, 1199) ||
+  // A cycle would overwrite the variable.
+  return (within(100, 1199) && !belongsToCycles(number)) ||
          (within(1600, 1999) && !within(firstResult, firstResult + results - 1) && !within(firstHelper, lastHelper));
 }
 

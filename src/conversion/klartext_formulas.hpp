@@ -60,7 +60,8 @@ public:
   enum class Holds { Number, Text };
   std::string define(std::string_view name, Holds holds = Holds::Number);
 
-  /// A variable that a conversion to SINUMERIK has named after the parameter it stands for: "_Q150", "_QL1".
+  /// A variable that a conversion to SINUMERIK has named after the parameter it stands for: "_Q600", "_QL1".
+  /// Not those that a control or a touch probe cycle fills: "_Q150" holds its value while cycles run.
   static bool namesParameter(std::string_view variable);
   /// The program uses that parameter itself: no variable that is defined gets it.
   void reserve(std::string_view parameter) { reserved_.emplace(parameter); }

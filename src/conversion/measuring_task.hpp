@@ -70,6 +70,9 @@ enum class Meaning {
   AngleDeviation,
 };
 
+/// A deviation that stands for no limit on this side.
+inline constexpr double unlimited = 100000;
+
 struct Limits {
   Quantity upper, lower;  ///< deviations from the set size
   /// Where only the running program knows whether there are limits: values that are all 0 if there are none.

@@ -107,6 +107,7 @@ void ToKlartext::survey() {
   // A subprogram that selects no unit counts in that of its callers.
   const bool inherits = job_.called && !units_.inch && !units_.metric;
   unitDoubtful_ = inherits && ofOthers.inch && ofOthers.metric;
+  answersInOtherUnit_ = job_.called && !inherits && (units_.inch ? ofOthers.metric : ofOthers.inch);
   if (units_.inch || (inherits && ofOthers.inch && !ofOthers.metric)) millimetre_ = 1 / millimetresOfInch;
 }
 

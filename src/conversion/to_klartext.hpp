@@ -246,6 +246,7 @@ private:
   Units units_;                                         ///< that the program selects
   std::map<std::string, Units> unitsOf_;                ///< that others of the job select, by their name in capitals
   bool unitDoubtful_ = false;                           ///< and not listed yet
+  bool answersInOtherUnit_ = false;                     ///< touch probe cycles, to a program that is called
   TouchProbe probe_;
 
   std::map<std::uint64_t, Modes> entries_;  ///< by the offset of blocks that several ways lead to

@@ -78,6 +78,11 @@ std::optional<Quantity> ToKlartext::measured(const MeasuringTask& task, const Re
 }
 
 void ToKlartext::copyResults(const Block& block, const Results& left, const MeasuringTask& task) {
+  if (answersInOtherUnit_) {
+    out_.list(block,
+              "results of touch probe cycles count in the unit of the main program, which may not be that of this one",
+              "let all programs of the job count in the same unit");
+  }
   std::set<int> missing = wantedAfter(block);
   const Results results = sinumerikResults(task);
   std::vector<std::pair<Meaning, std::string>> wanted(results.begin(), results.end());

@@ -53,6 +53,8 @@ private:
   std::string_view unitWord() const;
   /// Of a program of the job, by its name in capitals; nothing if it was not found.
   std::optional<language::klartext::Unit> unitOf(std::string_view name) const;
+  /// Whether a main program of the other unit may call this one: on a HEIDENHAIN control results of cycles count in it.
+  bool cyclesAnswerInOtherUnit() const;
   /// LBL 0 of a program that keeps its own stack of calls.
   void goBack();
   std::string labelName(std::string_view label);

@@ -97,6 +97,14 @@ void ToSinumerik::cycle(const Block& block, const CycleCall& cycle) {
   const cycles::CycleDefinition* definition = cycles::heidenhainCycle(cycle.number);
   const Call call = callOf(block, cycle);
   listForbiddenFrame(block, cycle.number);
+  const bool intoAnyParameter = cycle.number == 0 || cycle.number == 3 || cycle.number == 4;
+  const bool answers = intoAnyParameter || (definition != nullptr && !readResults(call.cycle).empty());
+  if (answers && cyclesAnswerInOtherUnit()) {
+    out_.list(block,
+              "results of cycles count in the unit of the main program, which may not be that of this one; on a "
+              "SINUMERIK they count in that of this one",
+              "let all programs of the job count in the same unit");
+  }
   if (measuresTools(cycle.number)) return toolMeasurement(block, call);
   if (cycle.number == 404) return basicRotation(block, call);
   if (cycle.number == 403) return alignRotaryAxis(block, call);

@@ -132,6 +132,13 @@ std::optional<klartext::Unit> ToSinumerik::unitOf(std::string_view name) const {
   return std::nullopt;
 }
 
+bool ToSinumerik::cyclesAnswerInOtherUnit() const {
+  return job_.called && std::ranges::any_of(job_.others, [&](const auto& other) {
+           const auto* program = dynamic_cast<const klartext::HeidenhainProgram*>(other.get());
+           return program != nullptr && program->unit() != program_.unit();
+         });
+}
+
 void ToSinumerik::callProgram(const Block& block, const CallProgram& call) {
   if (call.name.length == 0) throw NotCarriedOver("a program whose name is computed has no twin on a SINUMERIK");
   const std::string name = withoutEnding(block.at(call.name));

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/text.hpp"
 #include "conversion/heidenhain_tasks.hpp"
 #include "conversion/sinumerik_tasks.hpp"
 #include "conversion/to_sinumerik.hpp"
@@ -23,7 +24,10 @@ constexpr int exceededMessage = 67000;  ///< of SETAL: shown, and the program go
 std::set<int> ToSinumerik::readResults(const std::string& heidenhainCycle) const {
   std::set<int> read;
   const cycles::CycleDefinition* definition = cycles::heidenhainCycle(std::stoi(heidenhainCycle));
+  if (definition == nullptr) return read;
   for (const cycles::ResultDefinition& result : definition->results) {
+    if (result.name.size() < 2 || result.name[0] != 'Q' || !isDigit(result.name[1]))
+      continue;  // the parameter that cycle 0 names
     const int number = std::stoi(std::string(result.name.substr(1)));
     const bool status = number >= 180 && number <= 183;
     if (!status && usedQ_.contains(number)) read.insert(number);
@@ -140,8 +144,8 @@ void ToSinumerik::judge(const Block& block, const MeasuringTask& task, const Sin
     }
     const Meaning meaning = surface ? Meaning::CoordinateDeviation : sizes[i];
     // What is too small inside, or too large outside, still has material to take away.
-    (inside ? scrap : rework).push_back(compare(meaning, ">", limits.upper, limits));
-    (inside ? rework : scrap).push_back(compare(meaning, "<", limits.lower, limits));
+    if (!(limits.upper == unlimited)) (inside ? scrap : rework).push_back(compare(meaning, ">", limits.upper, limits));
+    if (!(limits.lower == -unlimited)) (inside ? rework : scrap).push_back(compare(meaning, "<", limits.lower, limits));
   }
   static constexpr Meaning centres[] = {Meaning::Centre1Deviation, Meaning::Centre2Deviation};
   for (std::size_t i = 0; i < 2; ++i) {

@@ -205,10 +205,43 @@ TEST(ConvertJobs, NameAUnitThatACalledProgramLeaves) {
   const std::string head = fmt::format("G17 G90 G71 G54\nT1\nM6 D1\nG0 Z{:.6f}\nSUB\n", n.z() + 60);
   for (const char* after : {"", "G71\n"}) {
     const Files files = {{"MAIN.MPF", head + after + downwards978(n, 30, -20, 1) + "M30\n"},
-                         {"SUB.SPF", "G700\n" + downwards978(n, 10, -40, 25.4) + "M17\n"}};
+                         {"SUB.SPF", "G700\nG0 X0.5 Y1\nM17\n"}};
     const JobFolder folder("probewright-job-unit");
     put(folder, files);
     EXPECT_EQ(converted(folder, files, ProgramLanguage::Klartext, ".H").has_value(), *after != 0);
+  }
+}
+
+/// A HEIDENHAIN control gives results of cycles in the unit of the main program, a SINUMERIK in that of the program.
+TEST(ConvertJobs, NameResultsThatCountInTheUnitOfTheMainProgram) {
+  Dice dice(11);
+  const Vector3 n = World(dice).nominal();
+  for (const bool mixed : {true, false}) {
+    // Cycle 0 puts its result into a parameter that it names.
+    const std::string touch = fmt::format("TCH PROBE 0.0 REF. PLANE Q5 Z-\nTCH PROBE 0.1 X{:+.3f} Y{:+.3f} Z{:+.3f}\n",
+                                          n.x() + 10, n.y() - 40, n.z());
+    for (const std::string& more : {std::string("Q2 = Q160\n"), std::string(), touch}) {
+      const bool reads = !more.empty();
+      SCOPED_TRACE(fmt::format("mixed {} {}", mixed, more));
+      const double unit = mixed ? 25.4 : 1;
+      const std::string main = mixed ? "INCH" : "MM";
+      const Files klartext = {
+          {"MAIN.H", fmt::format("BEGIN PGM MAIN {}\nTOOL CALL 1 Z\nL Z{:+.6f} R0 FMAX\nCALL PGM SUB\nM30\nEND PGM "
+                                 "MAIN {}\n",
+                                 main, (n.z() + 60) / unit, main)},
+          {"SUB.H", fmt::format("BEGIN PGM SUB MM\n{}{}L Z{:+.6f} R0 FMAX\nEND PGM SUB MM\n", downwards(n, 10, -40, 1),
+                                more, n.z() + 60)}};
+      const JobFolder folder("probewright-job-results");
+      put(folder, klartext);
+      EXPECT_EQ(converted(folder, klartext, ProgramLanguage::Sinumerik, ".SPF").has_value(), !mixed || !reads);
+    }
+    const Files sinumerik = {
+        {"MAIN.MPF", fmt::format("G17 G90 {} G54\nT1\nM6 D1\nG0 Z{:.6f}\nSUB\n{}\nM30\n", mixed ? "G700" : "G710",
+                                 (n.z() + 60) / (mixed ? 25.4 : 1), mixed ? "G700" : "G710")},
+        {"SUB.SPF", "G710\n" + downwards978(n, 10, -40, 1) + "M17\n"}};
+    const JobFolder folder("probewright-job-answers");
+    put(folder, sinumerik);
+    EXPECT_EQ(converted(folder, sinumerik, ProgramLanguage::Klartext, ".H").has_value(), !mixed);
   }
 }
 

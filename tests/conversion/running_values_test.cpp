@@ -236,6 +236,45 @@ TEST(ConvertRunningValues, SharesNoParameterWithWhatItDefines) {
   EXPECT_TRUE(sameEnd(quality, klartext));
 }
 
+/// Touch probe cycles fill Q150 to Q199 and take Q200 and on; a variable that is named after one of them keeps its
+/// value.
+TEST(ConvertRunningValues, KeepsVariablesThatCyclesWouldOverwrite) {
+  const PlantedPart part = blockWithHole(50.2);
+  const Twin original = runSinumerik(
+      "DEF REAL _Q151=7\nDEF REAL _Q180\nDEF REAL _Q262=9\nDEF REAL _Q600=11\nG17 G90 G710\nT1 M6 D1\nG54\nG0 Z100\n"
+      "G0 X0.3 Y0\nG0 Z-8\nCYCLE977(1,,,1,50,,,5,10,0,,,,,1)\nG0 Z100\nIF _Q180==1 GOTOF OVER\nG0 Z=90+_Q600\nOVER:\n"
+      "G0 X=_Q151 Y=_Q262\nM30\n",
+      part);
+  const Twin there = runConverted(original, part);
+  ASSERT_TRUE(ranWhole(original));
+  EXPECT_TRUE(there.lost.empty()) << messagesOf(there.lost);
+  EXPECT_TRUE(ranWhole(there));
+  EXPECT_TRUE(sameEnd(original, there)) << there.text;
+  EXPECT_NE(there.text.find("Q600 = 11"), std::string::npos) << there.text;
+  const Twin back = runConverted(there, part);
+  EXPECT_TRUE(ranWhole(back));
+  EXPECT_TRUE(sameEnd(original, back)) << back.text;
+}
+
+/// A limit of 0 is none, whatever the other one is.
+TEST(ConvertRunningValues, MonitorsNoLimitOfZero) {
+  for (const double hole : {49.8, 50.2}) {
+    const PlantedPart part = blockWithHole(hole);
+    for (const bool upper : {true, false}) {
+      for (const char* limit : {"+50", "+Q5"}) {
+        SCOPED_TRACE(fmt::format("hole {} upper {} limit {}", hole, upper, limit));
+        const Twin original = runKlartext(
+            klartextProgram("Q5 = 50\n" + inspectHole({{upper ? 275 : 276, limit}, {309, "+1"}}) + "L X+3 Y+4 FMAX\n"),
+            part);
+        EXPECT_EQ(original.finished, upper == (hole < 50)) << original.why;
+        const Twin there = runConverted(original, part);
+        EXPECT_TRUE(there.lost.empty()) << messagesOf(there.lost);
+        EXPECT_EQ(there.finished, original.finished) << there.why << there.text;
+      }
+    }
+  }
+}
+
 /// S_KNUM without a number corrects nothing.
 TEST(ConvertRunningValues, CorrectsNothingWithoutANumber) {
   const PlantedPart part = blockWithHole(50.2);
