@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/file.hpp"
+#include "session/host_files.hpp"
 #include "session/setup_check.hpp"
 #include "session/source.hpp"
 
@@ -25,7 +26,9 @@ Diagnostics checkProgram(const std::filesystem::path& path, std::optional<contro
   Diagnostics found = family.check(
       {.program = **program, .control = *kind, .path = path, .beliefs = beliefs, .skipLevels = skipLevels});
   if (beliefs != nullptr && family.inventory != nullptr) {
-    const Inventory inventory = family.inventory(*beliefs, *kind, found);
+    Inventory inventory = family.inventory(*beliefs, *kind, found);
+    HostFiles files(path, *beliefs);
+    inventory.hasFile = [&files](const std::string& name) { return files.read(name).has_value(); };
     const Diagnostics more = checkAgainstSetup(**program, inventory, skipLevels, machine);
     found.insert(found.end(), more.begin(), more.end());
     std::ranges::stable_sort(

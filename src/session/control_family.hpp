@@ -76,6 +76,8 @@ struct NamedItem {
 struct Inventory {
   std::function<bool(const NamedItem&)> hasTool;
   std::function<bool(const NamedItem&)> hasPreset;
+  /// A file that the run may read by this name: beside the program or among the tables of the setup. Empty: not known.
+  std::function<bool(const std::string&)> hasFile;
   std::string tools, presets;  ///< for the way out: "the setup has 1 PROBE, 2"
   bool toolSteps = false;      ///< tools are called with steps: 5.1
   /// The parameter of measuring cycles that names a tool to be monitored, and the word that such cycles are called by;

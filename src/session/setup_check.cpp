@@ -110,16 +110,28 @@ private:
   static bool isAxisLetter(std::uint32_t address) {
     return address < 256 && std::string_view("XYZABCUVW").find(static_cast<char>(address)) != std::string_view::npos;
   }
+  /// Of a SINUMERIK: E=, X1=; A2 to C7 orient the tool.
+  bool isNumberedAxis(std::uint32_t address) const {
+    if (isHeidenhain()) return false;
+    const std::string name = addressName(address);
+    if (name == "E") return true;
+    if (name.size() < 2 || std::string_view("XYZABCUVWE").find(name[0]) == std::string_view::npos) return false;
+    const auto isNumber = [](std::string_view digits) {
+      return digits.find_first_not_of("0123456789") == std::string_view::npos;
+    };
+    const bool orients = name.size() == 2 && name[0] <= 'C' && name[1] >= '2' && name[1] <= '7';
+    return isNumber(std::string_view(name).substr(1)) && !orients;
+  }
   static bool isNumberBut(const Word& word, double neutral) {
     return word.value.isLiteral() && word.value.number != neutral;
   }
 
   /// An axis that the machine lacks, moved or changed by this word.
-  void needAxis(const Word& word) {
-    const std::string name = addressName(word.address);
+  void needAxis(const Word& word) { needAxis(addressName(word.address), word.column); }
+  void needAxis(const std::string& name, std::uint32_t column) {
     report({}, fmt::format("the machine of the setup has no axis {}", name),
            fmt::format("take {} away, or choose a machine that has it", name), "axis");
-    found_.back().place.column = word.column > 0 ? word.column : found_.back().place.column;
+    found_.back().place.column = column > 0 ? column : found_.back().place.column;
   }
   void needRotaryAxes(std::string_view what) {
     report({}, fmt::format("{} needs rotary axes, and the machine of the setup has none", what),
@@ -155,19 +167,49 @@ private:
 
   void look(const MachineFunction& function) {
     if (function.number == 128 && lacksRotaryAxes()) needRotaryAxes("M128");
+    if (function.number != 94 || !isHeidenhain()) return;
+    for (const Word& word : wordsOf(function.words))  // M94 A
+      if (isAxisLetter(word.address) && lacksAxis(addressName(word.address))) needAxis(word);
   }
-  /// Of a HEIDENHAIN control.
-  bool lacksRotaryAxes() const { return inventory_.monitoredTool != 0 && !axes_.empty() && !tilts_; }
+  bool isHeidenhain() const { return inventory_.monitoredTool != 0; }
+  bool lacksRotaryAxes() const { return isHeidenhain() && !axes_.empty() && !tilts_; }
+
+  /// Tables and patterns of points that are selected by name.
+  void needFile(std::string_view what, std::string_view text) {
+    const NamedItem file{std::string(text), 0};
+    if (text.empty() || !inventory_.hasFile || inventory_.hasFile(file.name)) return;
+    if (inventory_.hasFile(std::string(text.substr(text.find_last_of("\\/:") + 1)))) return;  // folders of the control
+    report(file, fmt::format("the {} {} does not exist", what, text.substr(0, 100)),
+           "put it beside the program or into the tables of the setup, or correct its name", "file");
+  }
 
   void look(const Transform& transform) {
     changesOfAxes(transform);
+    if (block_.at(transform.name) == klartext::nameOf(klartext::TransformKind::TransDatumTable))
+      needFile("datum table", block_.at(transform.option));
     if (block_.at(transform.name) != klartext::nameOf(klartext::TransformKind::PresetByCycle)) return;
     for (const Word& word : wordsOf(transform.words)) {
       if (word.address != presetRow) continue;
       if (const auto row = named(word.value)) needPreset(*row);
     }
   }
+  /// POS[U]=, POSA[U]=, POSP[U]=: the axis in brackets.
+  void positions(const Command& command) {
+    const auto words = wordsOf(command.words);
+    const std::string_view name = block_.at(command.name);
+    if (words.size() < 2 || (name != "POS" && name != "POSA" && name != "POSP")) return;
+    if (words[1].value.node < 0) return;
+    const Node& index = block_.nodes[static_cast<std::size_t>(words[1].value.node)];
+    if (index.operation != Operation::AxisName) return;
+    const std::string axis = upperCase(block_.at(index.text));
+    if (lacksAxis(axis)) needAxis(axis, words[0].column);
+  }
   void look(const Command& command) {
+    if (!isHeidenhain()) positions(command);
+    if (block_.at(command.name) == klartext::nameOf(klartext::CommandKind::SelectTable))
+      needFile("datum table", block_.at(command.text));
+    if (block_.at(command.name) == klartext::nameOf(klartext::CommandKind::SelectPattern))
+      needFile("point table", block_.at(command.text));
     if (block_.at(command.name) == klartext::nameOf(klartext::CommandKind::PresetCorrection)) {
       for (const Word& word : wordsOf(command.words))
         if (isAxisLetter(word.address) && lacksAxis(addressName(word.address))) needAxis(word);
@@ -236,7 +278,8 @@ private:
   void look(const Move& move) {
     if (move.kind == MoveKind::SetCentre) return;
     for (const Word& word : wordsOf(move.words))
-      if (isAxisLetter(word.address) && lacksAxis(addressName(word.address))) needAxis(word);
+      if ((isAxisLetter(word.address) || isNumberedAxis(word.address)) && lacksAxis(addressName(word.address)))
+        needAxis(word);
   }
   void look(const Assign& assign) {
     const VariableRef& target = block_.variables[static_cast<std::size_t>(assign.variable)];

@@ -202,6 +202,7 @@ TEST(Check, KnowsWhatNeedsOtherAxesThanTheSetupHas) {
            {"CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 C+5", "3:14", "the machine of the setup has no axis C"},
            {"PLANE AXIAL B+10 STAY", "3:13", "the machine of the setup has no axis B"},
            {"PRESET CORR A+5", "3:13", "the machine of the setup has no axis A"},
+           {"M94 A", "3:5", "the machine of the setup has no axis A"},
            {"PLANE SPATIAL SPA+0 SPB+10 SPC+0 STAY", "3:1", "a tilted plane needs rotary axes"},
            {"PLANE RELATIV SPA+10 STAY", "3:1", "a tilted plane needs rotary axes"},
            {"PLANE VECTOR BX+1 BY+0 BZ+0 NX+0 NY+0.1 NZ+1 STAY", "3:1", "a tilted plane needs rotary axes"},
@@ -213,6 +214,12 @@ TEST(Check, KnowsWhatNeedsOtherAxesThanTheSetupHas) {
               block != "PLANE AXIAL B+10 STAY")
         << block;
   }
+  EXPECT_THAT(check("a.h", klartext("SEL TABLE \"NONE.D\""), tnc),
+              HasSubstr("a.h:3:12: error: the datum table NONE.D does not exist"));
+  EXPECT_THAT(check("a.h", klartext("SEL PATTERN \"NONE.PNT\""), tnc),
+              HasSubstr("a.h:3:14: error: the point table NONE.PNT does not exist"));
+  folder.file("ZERO.D", "BEGIN ZERO.D MM\nNR X Y Z\n0 1 2 3\n[END]\n");
+  EXPECT_EQ(check("a.h", klartext("SEL TABLE \"TNC:\\table\\zero.d\""), tnc), "");
   for (const char* block :
        {"TRANS DATUM AXIS X+5 A+0", "PLANE SPATIAL SPA+0 SPB+0 SPC+10 STAY", "PLANE SPATIAL SPA+Q1 SPB+0 SPC+0 STAY",
         "PLANE VECTOR BX+1 BY+0 BZ+0.1 NX+0 NY+0 NZ+1 STAY", "PLANE RESET STAY",
@@ -220,6 +227,13 @@ TEST(Check, KnowsWhatNeedsOtherAxesThanTheSetupHas) {
     EXPECT_EQ(check("a.h", klartext(block), tnc), "") << block;
   EXPECT_THAT(check("a.mpf", "TRANS U5\nM30\n", siemens),
               HasSubstr("a.mpf:1:7: error: the machine of the setup has no axis U"));
+  for (const auto& [block, place, axis] : std::vector<std::array<std::string, 3>>{{"POS[U]=5", "1:1", "U"},
+                                                                                  {"G0 X1=5", "1:4", "X1"},
+                                                                                  {"G1 X5 E4 F100", "1:7", "E"},
+                                                                                  {"POSA[C1]=5", "1:1", "C1"}}) {
+    EXPECT_THAT(check("a.mpf", block + "\nM30\n", siemens),
+                HasSubstr("a.mpf:" + place + ": error: the machine of the setup has no axis " + axis));
+  }
   EXPECT_THAT(check("a.mpf", "MIRROR A0\nM30\n", siemens), HasSubstr("error: the machine of the setup has no axis A"));
   EXPECT_EQ(check("a.mpf", "TRANS X5 A0\nSCALE X2\nM30\n", siemens), "");
   const auto swivel = [](const char* name, int angle) {

@@ -182,6 +182,14 @@ TEST(Check, WhatTheControlDoesNotHave) {
             "a.h:2:3: warning: GLOBAL DEF 120 has no parameter Q99: the run stops at this block");
   EXPECT_EQ(mistakes("1 GLOBAL DEF 119 PROBING ~\n Q320=+0\n", newer),
             "a.h:2:3: warning: there is no group 119 of global definitions: the run stops at this block");
+  EXPECT_EQ(mistakes("1 L X+1 R0 FMAX M98\n", newer), "a.h:2:3: warning: M98 is not carried out");
+  EXPECT_EQ(mistakes("1 L X+1 R0 FMAX M120 LA5\n", older), "a.h:2:3: warning: M120 is not carried out");
+  EXPECT_EQ(mistakes("1 M150\n", newer), "a.h:2:3: warning: M150 is not carried out");
+  EXPECT_EQ(mistakes("1 M197\n", newer), "a.h:2:3: warning: M197 is not carried out");
+  EXPECT_EQ(mistakes("1 M114\n", newer), "a.h:2:3: warning: the TNC640 does not have M114");
+  EXPECT_EQ(mistakes("1 M114\n2 M101\n3 M50\n", older), "");
+  const std::string twice = checked(framed("1 M98\n2 M98\n"));
+  EXPECT_EQ(twice.find("M98 is not carried out"), twice.rfind("M98 is not carried out")) << twice;
   EXPECT_EQ(mistakes("1 FN 22: X\n", newer), "a.h:2:3: warning: the control has no FN 22");
   EXPECT_EQ(mistakes("1 FN 18: SYSREAD Q1 = ID503 NR1 IDX1\n", newer),
             "a.h:2:3: warning: FN 18 cannot read ID503 NR1 here: the run stops at this block");

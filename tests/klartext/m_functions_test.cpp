@@ -3,9 +3,9 @@
 
 #include <array>
 
-#include "execution/klartext/m_functions.hpp"
 #include "klartext/expectations.hpp"
 #include "klartext/host_world.hpp"
+#include "language/klartext/m_functions.hpp"
 
 namespace probewright::language::klartext::testing {
 

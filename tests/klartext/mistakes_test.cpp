@@ -101,6 +101,8 @@ TEST(Mistakes, OfToolsAndCalls) {
               {"TOOL CALL 99 Z", "Tool not defined: TOOL.T has no tool 99"},
               {"TOOL CALL \"NONE\" Z", "Tool not defined: TOOL.T has no tool named NONE"},
               {"TOOL CALL 5 Q", "3:13: the tool axis, S, F, DL, DR, DR2 or M is expected here"},
+              {"TOOL CALL 1 U S500", "3:13: the tool axis U is not available: tools lie along X, Y or Z here"},
+              {"TOOL CALL W", "3:11: the tool axis W is not available: tools lie along X, Y or Z here"},
               {"TOOL CALL 5 Z S-5", "Spindle speed wrong: A spindle speed of -5 is not possible"},
               {"TOOL DEF", "3:9: a tool number or name is expected after TOOL DEF"},
               {"LBL \"A", "3:5: a label number, a label name in quotation marks or a QS parameter is expected"},

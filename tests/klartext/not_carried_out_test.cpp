@@ -53,6 +53,7 @@ constexpr std::array namedCases = {
     Case{"L IX+1 R+ F500", "The paraxial radius compensation R+ is not simulated and was skipped"},
     Case{"CYCL DEF 332 TUNING ~\n  Q240=+1", "Cycle 332 is not simulated and was skipped"},
     Case{"CYCL DEF 800 ADAPT XZ SYSTEM ~\n  Q497=+0", "Cycle 800 is not simulated and was skipped"},
+    Case{"CYCL DEF 1032 WHEEL LENGTH ~\n  Q1012=+0", "Cycle 1032 is not simulated and was skipped"},
     Case{"CYCL DEF 203 DRILLING ~\n  Q200=+2\nL X+1 FMAX M99\nCYCL CALL", "Cycle 203 is not simulated and was skipped"},
     Case{"CYCL DEF 1.0 PECKING\nCYCL DEF 1.1 SET UP2\nCYCL DEF 1.2 DEPTH-5\nCYCL DEF 1.3 PECKG2\nCYCL DEF 1.4 DWELL0\n"
          "CYCL DEF 1.5 F100\nCYCL CALL",

@@ -39,6 +39,14 @@ TEST(SinumerikBlockWords, ThatTheBlockItselfTells) {
       {"TRANS CR=5", "TRANS takes no CR", "12110"},
       {"ROT X5 AP=3", "ROT takes no AP", "12110"},
       {"G111 X5 CR=5", "G111 takes no CR", "12110"},
+      {"G110 U5", "G110 takes no U", "12110"},
+      {"G1 X5 IP[X]=5", "G1 takes no IP", "12110"},
+      {"CT X0 Y20 IP[X]=3", "CT takes no IP", "12110"},
+      {"G111 X5 A5", "G111 takes no A", "12110"},
+      {"G112 X1=5", "G112 takes no X1", "12110"},
+      {"ROT B5", "ROT takes no B", "12110"},
+      {"AROT X5 U3", "AROT takes no U", "12110"},
+      {"ROTS C5", "ROTS takes no C", "12110"},
       {"MEAS=1 G1 X5 CR=10", "MEAS takes no CR", "12110"},
       {"G90 G91 X9", "G91 is the second G function of group 14 in this block", "12060"},
       {"G41 G42", "G42 is the second G function of group 7 in this block", "12060"},
@@ -80,6 +88,48 @@ TEST(SinumerikBlockWords, ThatTheBlocksBeforeTell) {
   World world;
   EXPECT_EQ(world.alarm(std::string(before) + "DEF AXIS AXV=(X)\nAX[AXV]=5 X6\n"), "12010");
   EXPECT_EQ(world.alarm(std::string(before) + "DEF AXIS AXV=(X)\nG0 AX[AXV]=5 RP=6\n"), "14280");
+}
+
+/// What only the run knows: an axis from a variable, the motion that is in force.
+TEST(SinumerikBlockWords, ThatOnlyTheRunKnows) {
+  const std::string axis = "DEF AXIS AXV=(A)\n";
+  for (const auto& [blocks, alarm] :
+       std::vector<std::pair<std::string, std::string>>{{"G110 AX[AXV]=5", "12080"},
+                                                        {"ROT AX[AXV]=5", "14020"},
+                                                        {"G1 ANG=30", "14090"},
+                                                        {"MEAS=1 G1 ANG=30", "14090"},
+                                                        {"G1 ANG=30\nT1", "14090"},
+                                                        {"G1 ANG=30\nSUPA G0 X5", "14090"},
+                                                        {"G1\nSUPA X5 ANG=30", "12110"},
+                                                        {"G1\nSUPA X5 CR=30", "12110"},
+                                                        {"SUPA G1 X5 RND=2", "12110"},
+                                                        {"G153 G2 X25 Y5 CR=5", "12110"},
+                                                        {"T1 D1\nDL=7", "17182"},
+                                                        {"T1 D1\nDL=-1", "17182"},
+                                                        {"T1 D1\nDL=1.5", "17182"}}) {
+    World world("mill5-table-table");
+    EXPECT_EQ(world.alarm(axis + before + blocks + "\n"), alarm) << blocks;
+  }
+  World world;
+  world.run(std::string(before) + "G1 X0 Y0\nG1 ANG=45\nX20 Y0 ANG=-45\n");
+  EXPECT_LT((tip(world) - Vector3(20, 0, 50)).norm(), 1e-12);
+  world.run("G1 X0 Y0\nMEAS=1 G1 X10 ANG=45\n");
+  EXPECT_LT((tip(world) - Vector3(10, 10, 50)).norm(), 1e-12);
+  world.run("G111 X3 Y4\nG0 AP=0 RP=5\n");
+  EXPECT_LT((tip(world) - Vector3(8, 4, 50)).norm(), 1e-12);
+}
+
+/// The lengths of DL add up to those of the edge, at once and until DL=0.
+TEST(SinumerikBlockWords, AdditiveOffsetsActAtOnce) {
+  World world;
+  world.run("$TC_SCP13[1,1]=2 $TC_SCP23[1,1]=0.5\nT1 M6\nD1\nG17 G90 G0 Z0\n");
+  const double without = world.machine.position()[2];
+  world.run("DL=1\nG0 Z0\n");
+  EXPECT_NEAR(world.machine.position()[2], without + 2, 1e-12);
+  world.run("DL=2\nG0 Z0\n");
+  EXPECT_NEAR(world.machine.position()[2], without + 0.5, 1e-12);
+  world.run("DL=0\nG0 Z0\n");
+  EXPECT_NEAR(world.machine.position()[2], without, 1e-12);
 }
 
 /// CIP and CT in a block without axes hold for the blocks after it.

@@ -54,6 +54,8 @@ TEST(SinumerikEffects, WhatIsNotCarriedOutIsNamedOnceAndRefusedUnderStrict) {
       {"G1 X1 F100 STAT='B010'", "STAT"},
       {"G1 X1 F100 A7=1", "A7"},
       {"G1 X1 F100 THETA=5", "THETA"},
+      {"PSI=4", "PSI"},
+      {"G1 X1 F100 PSI=4", "PSI"},
       {"TRAORI(2)", "TRAORI with another transformation"},
       {"TRAORI(1,1,0,0)", "TRAORI with another direction"},
       {"$P_EXTFRAME=CTRANS(X,3)", "$P_EXTFRAME"},

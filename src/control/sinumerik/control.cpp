@@ -108,6 +108,17 @@ void Control::selectEdge(int edge) {
   refreshTool();
 }
 
+void Control::selectAdditiveOffset(double number) {
+  if (!(number >= 0 && number <= lastOffsetNumber) || number != std::floor(number)) {
+    throw Alarm("17182",
+                fmt::format("Illegal DL number {}: an edge has the additive offsets 1 to {}", number, lastOffsetNumber),
+                "correct the number; DL=0 takes none");
+  }
+  tool.dl = static_cast<int>(number);
+  refreshTool();
+  handOverFrames();
+}
+
 void Control::refreshTool() {
   edge_ = toolEdge(data, tool.number, tool.edge, tool.dl).value_or(ToolEdge{});
   applyTool();

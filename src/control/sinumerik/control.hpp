@@ -91,6 +91,9 @@ public:
   int toolNumbered(const std::string& name) const;
   /// Activates an offset (0: none). Throws Alarm 17180 if the tool has no such edge.
   void selectEdge(int edge);
+  /// DL=: the additive offset of the active edge (0: none), in effect at once. Throws Alarm 17182 unless it is a whole
+  /// number from 0 to 6.
+  void selectAdditiveOffset(double number);
   /// Reads the data of the active tool and edge and puts them into effect, as D does. What a program writes into them
   /// has no effect before that.
   void refreshTool();

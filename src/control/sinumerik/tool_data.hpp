@@ -43,6 +43,9 @@ struct ToolEdge {
 /// wants to know what a control makes of tool data asks here, not the data: MD 20360 and adapters count.
 std::optional<ToolEdge> toolEdge(const DataStore& store, int tool, int edge, int dl = 0);
 
+/// DL of the last additive offset of an edge.
+constexpr int lastOffsetNumber = 6;
+
 /// "$TC_SCP13" for the additive offset of length 1 (parameter 3) with DL = 1; parameters 3..11, DL 1..6.
 std::string additiveOffsetName(int dl, int parameter);
 std::string setupOffsetName(int dl, int parameter);

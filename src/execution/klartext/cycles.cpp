@@ -19,7 +19,8 @@ using control::Feed;
 namespace {
 
 /// Cycles of CYCL DEF that act where they stand; all others wait for CYCL CALL, M99 or M89.
-constexpr std::array actingAtOnce = {14, 20, 220, 221, 224, 225, 238, 239, 270, 291, 292, 800, 801, 880, 892};
+constexpr std::array actingAtOnce = {14,  20,  220,  221,  224,  225,  238,  239,  270,  291,  292,  800,  801,
+                                     880, 892, 1000, 1001, 1002, 1010, 1015, 1016, 1017, 1018, 1030, 1032, 1033};
 
 /// Cycles of the machine tool builder: only he knows when and how they act.
 bool isOfBuilder(int number) { return (number >= 300 && number < 400) || (number >= 500 && number < 600); }

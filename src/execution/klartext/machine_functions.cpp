@@ -5,13 +5,15 @@
 #include <limits>
 
 #include "control/alarm.hpp"
-#include "execution/klartext/m_functions.hpp"
 #include "execution/klartext/machine_functions.hpp"
+#include "language/klartext/m_functions.hpp"
 
 namespace probewright::execution::klartext {
 
 using control::Alarm;
 using control::Feed;
+using language::klartext::effectOf;
+using language::klartext::FunctionEffect;
 using machine::Rotation;
 
 void MachineFunctions::carryOut(const MachineFunction& function, Evaluation& evaluation) {

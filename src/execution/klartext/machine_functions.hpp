@@ -6,7 +6,7 @@
 
 namespace probewright::execution::klartext {
 
-/// M functions; m_functions.hpp tells which of them are carried out.
+/// M functions; language/klartext/m_functions.hpp tells which of them are carried out.
 class MachineFunctions {
 public:
   MachineFunctions(RunContext& run, Motion& motion, ToolGuidance& guidance, Spindle& spindle, Cycles& cycles)

@@ -178,7 +178,8 @@ void PathMotion::measure(const Command& command, Evaluation& evaluation) {
   const std::optional<machine::Sensor> sensor = sensorAt(std::abs(event) == 2 ? 2 : 1, control_);
   if (state_.group1 != MoveKind::Rapid && state_.group1 != MoveKind::Linear)
     throw Alarm("21610", "a measuring block is a straight line", "write G1 with MEAS");
-  const Words words = read(axes, evaluation);
+  Words words = read(axes, evaluation);
+  if (words.angle && !resolveAngle(words, state_.group1)) flush();  // which refuses ANG alone
   const ProgramPlace from = channel.position(), to(endOf(words));
   const ProgramWay way = to - from;
   const Feed speed = feed(state_.group1, from.vector(), to.vector());

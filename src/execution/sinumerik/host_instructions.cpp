@@ -392,9 +392,7 @@ void SinumerikHost::carryOut(const Command& command, Evaluation& evaluation) {
     }
     case CommandKind::OffsetNumber:
       motion_.flush();
-      control_.tool.dl = wholeNumber(evaluation.number(words[0].value));
-      control_.refreshTool();
-      return control_.handOverFrames();
+      return control_.selectAdditiveOffset(evaluation.number(words[0].value));
     case CommandKind::BeginRecording:
       recording_ = true;
       return leaveOut(command, evaluation);

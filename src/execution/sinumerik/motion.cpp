@@ -88,11 +88,11 @@ void PathMotion::carryOut(const Move& move, Evaluation& evaluation) {
   const bool changesPitch = state_.thread == 34 || state_.thread == 35;
   if (move.feed.present() && !changesPitch) state_.feed = evaluation.number(move.feed);
   if (move.compensation != RadiusCompensation::Unchanged) setCompensation(move.compensation);
+  checkWords(move, evaluation);
   if (move.machineCoordinates) {
     flush();
     return moveWithoutFrames(move, evaluation);
   }
-  checkWords(move, evaluation);
   Words words = read(move.words, evaluation);
   const MoveKind kind = state_.group1;
   if ((words.angle || openLine_) && !resolveAngle(words, kind)) return;
@@ -198,7 +198,11 @@ void PathMotion::run(const PathElement& element) {
 }
 
 void PathMotion::flush() {
-  openLine_.reset();
+  if (openLine_) {
+    openLine_.reset();
+    throw Alarm("14090", "the line with ANG alone has no end",
+                "write the line that it leads to into the next block, with its end point and ANG");
+  }
   corners_.flush();
   compensator_.flush();
   if (programmed_ && !compensator_.active()) programmed_.reset();
@@ -230,6 +234,14 @@ void PathMotion::moveWithoutFrames(const Move& move, Evaluation& evaluation) {
   const bool baseStays = evaluation.at(move.variant) == "G53";
   channel.setFrame(baseStays ? control_.machineFromBase() : Eigen::Affine3d::Identity());
   const Words words = read(move.words, evaluation);
+  const bool arc =
+      state_.group1 != MoveKind::Rapid && state_.group1 != MoveKind::Linear && state_.group1 != MoveKind::Modal;
+  if (arc || words.angle || words.corner) {
+    throw Alarm("12110",
+                fmt::format("{} is travelled as a straight line to the end point only: no arc, ANG, RND, CHF or CHR",
+                            evaluation.at(move.variant)),
+                "write G0 or G1 and the end point");
+  }
   const bool rapid = state_.group1 == MoveKind::Rapid;
   travel(words.target, feed(rapid ? MoveKind::Rapid : MoveKind::Linear, start(), endOf(words)));
 }

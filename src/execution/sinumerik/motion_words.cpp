@@ -132,8 +132,7 @@ bool PathMotion::readArcWord(std::uint32_t address, WordMode mode, double value,
     case addressOf("DISPR"):
     case addressOf("FAD"):
     case addressOf("SF"):
-    // The angle of involutes, and what inputs switch to.
-    case addressOf("PSI"):
+    // What inputs switch to.
     case addressOf("SR"):
     case addressOf("ST"):
       return true;
@@ -290,8 +289,9 @@ void PathMotion::setPole(const Vector3& from, WordRange range, Evaluation& evalu
     const double value = evaluation.number(word.value);
     if (const auto axis = linearAxis(address)) {
       pole[static_cast<Eigen::Index>(*axis)] = from[static_cast<Eigen::Index>(*axis)] + value * control_.unit;
-    } else {
-      readArcWord(address, word.mode, value, words);
+    } else if (!readArcWord(address, word.mode, value, words)) {
+      throw Alarm("12080", fmt::format("a pole has no {}", addressName(address)),
+                  "write the pole with X, Y and Z, or with AP and RP");
     }
   }
   if (words.polarAngle || words.polarRadius) {

@@ -80,11 +80,13 @@ bool BlockParser::machineFunction(Move* move) {
     const bool incremental = lexer_.peek() == 'I';
     const char letter = upper(incremental ? lexer_.here(1) : lexer_.peek());
     if (std::string_view("XYZABCUVW").find(letter) == std::string_view::npos || letter == '\0') break;
+    const std::uint32_t column = lexer_.column();
     lexer_.advance(incremental ? 2 : 1);
     const char next = lexer_.peek();
     const bool valued = next == '+' || next == '-' || isDigit(next) || next == '.' || next == 'Q';
     if (!valued) {
       addWord(addressOf({&letter, 1}), {});
+      block_.words.back().column = column;
     } else if (!word(addressOf({&letter, 1}), {&letter, 1})) {
       return false;
     }

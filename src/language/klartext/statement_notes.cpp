@@ -13,6 +13,7 @@
 #include "language/klartext/control_blocks.hpp"
 #include "language/klartext/global_groups.hpp"
 #include "language/klartext/lexer.hpp"
+#include "language/klartext/m_functions.hpp"
 #include "language/klartext/system_data_numbers.hpp"
 
 namespace probewright::language::klartext {
@@ -68,6 +69,20 @@ void StatementNotes::look(const Block&, const ToolCall& call) {
   if (call.axis == 0 || call.axis == toolAxis_) return;
   toolAxis_ = call.axis;
   poleAxis_ = 0;
+}
+
+/// Each M function that the run names, once; whether a machine has those of its builder is not known here.
+void StatementNotes::look(const Block&, const MachineFunction& function) {
+  const FunctionEffect effect = effectOf(function.number, kind_);
+  if (effect != FunctionEffect::NotCarriedOut && effect != FunctionEffect::OfOtherOne) return;
+  if (!named_.insert(function.number).second) return;
+  if (effect == FunctionEffect::NotCarriedOut) {
+    note(Severity::Warning, fmt::format("M{} is not carried out", function.number),
+         "the run continues without it; --strict refuses it");
+  } else {
+    note(Severity::Warning, fmt::format("the {} does not have M{}", control::name(kind_), function.number),
+         "the run continues without it unless the machine has it; --strict refuses it");
+  }
 }
 
 /// CC with two axes has their plane, CC without any the one of the tool axis.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,7 @@ private:
   void look(const Block& block, const Move& move);
   void look(const Block& block, const ToolCall& call);
   void look(const Block& block, const CallProgram& call);
+  void look(const Block& block, const MachineFunction& function);
   void followPole(const Block& block, const Move& move);
   void mixture(const Block& block, const Move& move);
   template <class Other>
@@ -50,7 +52,8 @@ private:
   std::map<std::string, bool, std::less<>> quoted_;  ///< labels of digits only, and how they stood first
   /// The axis along the tool, and the one square to the plane of the last CC; 0: not known without a run.
   char toolAxis_ = 0, poleAxis_ = 0;
-  std::string corner_;  ///< RND or CHF that waits for the element after it
+  std::string corner_;   ///< RND or CHF that waits for the element after it
+  std::set<int> named_;  ///< M functions that were
   std::vector<Note> notes_;
 };
 

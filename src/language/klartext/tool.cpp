@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "language/klartext/parser.hpp"
@@ -9,7 +11,10 @@ namespace {
 
 constexpr double highestTool = 32767;
 
-bool isToolAxis(char letter) { return std::string_view("XYZUVW").find(letter) != std::string_view::npos; }
+bool isToolAxis(char letter) { return letter >= 'X' && letter <= 'Z'; }
+
+/// The control has these tool axes, too.
+bool isParallelAxis(char letter) { return letter >= 'U' && letter <= 'W'; }
 
 }  // namespace
 
@@ -92,6 +97,10 @@ bool BlockParser::toolCall() {
   for (;;) {
     const char c = lexer_.peek();
     if (c == '\0') break;
+    if (isParallelAxis(c) && !isWordByte(lexer_.here(1))) {
+      return error(fmt::format("the tool axis {} is not available: tools lie along X, Y or Z here", c),
+                   "choose the tool axis X, Y or Z");
+    }
     if (isToolAxis(c) && call.axis == 0 && !isWordByte(lexer_.here(1))) {
       call.axis = c;
       lexer_.advance();

@@ -71,8 +71,8 @@ constexpr Row rows[] = {
     {Takes::Points, "AP RP RND RNDM CHF CHR FRC FRCM I1 J1 K1 TURN", "CIP has an end point and I1, J1, K1"},
     {Takes::Tangent, "AP RP RND RNDM CHF CHR FRC FRCM", "CT has an end point only"},
     {Takes::Frame, "", "it takes axes only"},
-    {Takes::Turn, "RPL", "it takes axes, or RPL"},
-    {Takes::Pole, "AP RP", "it takes axes, or AP and RP"},
+    {Takes::Turn, "RPL", "it takes X, Y and Z, or RPL"},
+    {Takes::Pole, "AP RP", "it takes X, Y and Z, or AP and RP"},
     {Takes::Limit, "", "it takes axes, or S"},
     {Takes::Dwell, "", "it takes F in seconds, or S in turns of the spindle"},
     {Takes::Fixed, "FP", "it takes axes with any value, and FP"},
@@ -97,6 +97,11 @@ bool contains(std::string_view names, std::string_view wanted) {
   bool found = false;
   eachName(names, [&](std::string_view name) { found = found || name == wanted; });
   return found;
+}
+
+/// Poles and rotations have geometry axes only; what AX[axis]= means the run knows.
+bool isGeometryAxis(std::string_view name) {
+  return name == "X" || name == "Y" || name == "Z" || name == "AX[]" || name == "=AX";
 }
 
 /// The axes of a plane.
@@ -127,15 +132,15 @@ std::optional<WordMistake> wordMistake(Takes takes, std::string_view name, const
     if (written == "=IP" || written == "IP[]") {  // IP[axis]=: I, J or K
       written = "IP";
     }
-    const bool frame = takes == Takes::Frame || takes == Takes::Turn || takes == Takes::Pole;
-    if (written == "IP" && !frame) {
-      if (takes != Takes::Line && takes != Takes::Measure) centre = &word;
+    if (written == "IP" && (takes == Takes::Arc || takes == Takes::Thread)) {
+      centre = &word;
       continue;
     }
     if (written == "F" || written == "S" || written == "MEAS" || written == "MAX" || written == "MMO") continue;
     const bool ofDwell = takes == Takes::Dwell && written.front() == 'S';
     const bool axis = !isParameter(written) && !ofDwell;
-    if ((axis && takes == Takes::Dwell) ||
+    const bool ofGeometry = takes == Takes::Turn || takes == Takes::Pole;
+    if ((axis && (takes == Takes::Dwell || (ofGeometry && !isGeometryAxis(written)))) ||
         (isParameter(written) && !contains(row.words, written) && !staysBeside(takes, written))) {
       return WordMistake{word.column, fmt::format("{} takes no {}", name, written),
                          fmt::format("Take it away: {}.", row.advice), takes == Takes::Dwell ? "12120" : "12110"};

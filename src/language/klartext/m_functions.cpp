@@ -1,9 +1,9 @@
-#include "execution/klartext/m_functions.hpp"
+#include "language/klartext/m_functions.hpp"
 
 #include <algorithm>
 #include <array>
 
-namespace probewright::execution::klartext {
+namespace probewright::language::klartext {
 
 using control::ControlKind;
 
@@ -37,4 +37,4 @@ FunctionEffect effectOf(int mFunction, ControlKind kind) {
   return FunctionEffect::OfBuilder;
 }
 
-}  // namespace probewright::execution::klartext
+}  // namespace probewright::language::klartext

@@ -2,7 +2,7 @@
 
 #include "control/control_kind.hpp"
 
-namespace probewright::execution::klartext {
+namespace probewright::language::klartext {
 
 /// What a run makes of an M function.
 enum class FunctionEffect {
@@ -15,4 +15,4 @@ enum class FunctionEffect {
 
 FunctionEffect effectOf(int mFunction, control::ControlKind kind);
 
-}  // namespace probewright::execution::klartext
+}  // namespace probewright::language::klartext
