@@ -7,7 +7,8 @@ too, gets the name of its file behind it, so that no file sees what is another's
 files themselves, by their way from the build folder: so the text is the same wherever the project lies, and caches know it again.
 
 It does not read C++ in full. A field or a function of another file that has such a name, in the same file, is renamed in part and
-does not compile: give one of them another name."""
+does not compile: give one of them another name. What a file says with `using` outside of its functions holds for the files after it,
+too; where that is ambiguous, it does not compile either."""
 
 import os
 import pathlib

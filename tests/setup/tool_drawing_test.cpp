@@ -6,13 +6,19 @@
 namespace probewright::setup {
 namespace {
 
-TEST(ToolDrawing, DrawsEachToothAsOneLineFromTheAxisUp) {
+/// 10 mm wide and 80 mm long, its edges upright and 20 mm long; without teeth.
+simulation::TrueTool straightMill() {
   simulation::TrueTool mill;
   mill.kind = simulation::ToolKind::Cutter;
   mill.length = 80;
   mill.radius = 5;
   mill.cutter.cutLength = 20;
   mill.cutter.helix = 0;
+  return mill;
+}
+
+TEST(ToolDrawing, DrawsEachToothAsOneLineFromTheAxisUp) {
+  simulation::TrueTool mill = straightMill();
   const std::size_t body = drawnTool(mill).featureEdges.size();
   mill.cutter.teeth.resize(1);
   const reports::Mesh mesh = drawnTool(mill);
@@ -30,12 +36,7 @@ TEST(ToolDrawing, DrawsEachToothAsOneLineFromTheAxisUp) {
 }
 
 TEST(ToolDrawing, DrawsRunOutWearAndWhatHasBrokenOffATooth) {
-  simulation::TrueTool mill;
-  mill.kind = simulation::ToolKind::Cutter;
-  mill.length = 80;
-  mill.radius = 5;
-  mill.cutter.cutLength = 20;
-  mill.cutter.helix = 0;
+  simulation::TrueTool mill = straightMill();
   const std::size_t body = drawnTool(mill).featureEdges.size();
   mill.cutter.teeth = {{.radial = 0.1, .axial = 0.3, .radialWear = 0.04, .axialWear = 0.2}};
   const reports::Mesh shifted = drawnTool(mill);
