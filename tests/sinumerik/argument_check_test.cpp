@@ -247,5 +247,32 @@ TEST(SinumerikArguments, ThoseOfCycle800And116AreCounted) {
   EXPECT_EQ(mistakesIn("CYCLE116()\n").size(), 1u);
 }
 
+/// As the run does: 61307, 61329.
+TEST(SinumerikArguments, VariantsThatDoNotFitTogetherAreNamed) {
+  const auto told = [](const std::string& call) {
+    const Messages found = mistakesIn(call + "\nM30\n");
+    return found.empty() ? "" : found.front();
+  };
+  EXPECT_EQ(told("CYCLE973(1001101,1,1,40,2,1,8,2,,1,,0,0)"),
+            "1:10 argument 1 of CYCLE973: S_MVAR does not fit together: a radius does not correct the length");
+  EXPECT_EQ(told("CYCLE973(100,1,1,40,2,1,8,2,,1,,0,0)"),
+            "1:10 argument 1 of CYCLE973: S_MVAR does not fit together: a surface is touched in one given direction");
+  EXPECT_EQ(told("CYCLE974(10000,0,0,1,80,1,2,1)"),
+            "1:10 argument 1 of CYCLE974: S_MVAR does not fit together: a front edge is not measured with reversal");
+  EXPECT_EQ(told("CYCLE974(10102,1,0,1,80,2,2,1)"),
+            "1:10 argument 1 of CYCLE974: S_MVAR does not fit together: with reversal no zero offset is corrected");
+  EXPECT_EQ(told("CYCLE978(10000,,,1,20,5,1,3,2,1)"),
+            "1:10 argument 1 of CYCLE978: S_MVAR does not fit S_MA: along the tool only the standard method measures");
+  EXPECT_EQ(told("CYCLE998(10006,,0,1,1,0,0,5,5,201,1,10,10,,,10,1,,1,)"),
+            "1:10 argument 1 of CYCLE998: S_MVAR does not fit the measuring variant: a plane is measured along the "
+            "tool by the standard method only");
+  EXPECT_EQ(told("CYCLE998(10005,,0,1,1,0,,5,5,103,1,10,,,,,1,,1,)"),
+            "1:30 argument 10 of CYCLE998: S_MA does not fit the measuring variant: spindle reversal measures only in "
+            "the plane");
+  EXPECT_EQ(told("CYCLE998(6,,1,1,1,0,0,5,5,201,1,10,10,,,10,1,,1,)"),
+            "1:13 argument 3 of CYCLE998: S_RA does not fit the measuring variant: a plane corrects rotations only: "
+            "S_RA = 0");
+}
+
 }  // namespace
 }  // namespace probewright::language::sinumerik

@@ -192,6 +192,19 @@ TEST(SinumerikCheck, OnlyTheCauseOfABrokenProcIsTold) {
   EXPECT_EQ(told("PROC SUB_1(RAEL AA_1,INT CC_1)\nAA_1=CC_1\nM17"), "1:12 the type of a parameter was expected\n");
 }
 
+TEST(SinumerikCheck, KnowsWhatForbidsAMeasuringCycle) {
+  const std::string cycle = "CYCLE978(0,,,1,0,5,3,1,1)\nM30";
+  EXPECT_EQ(told("G41 X5\nX10\n" + cycle), "3:1 G41 is active: the control refuses CYCLE978 with alarm 61300\n");
+  EXPECT_EQ(told("G42 X5\nG40 X10\n" + cycle), "");
+  EXPECT_EQ(told("SCALE X2 Y2\nAROT Z10\n" + cycle),
+            "3:1 a scale factor is active: the control refuses CYCLE978 with alarm 61310\n");
+  for (const char* harmless : {"SCALE X1", "SCALE X2\nSCALE", "SCALE X2\nTRANS X5", "ASCALE X=R1"})
+    EXPECT_EQ(told(std::string(harmless) + "\n" + cycle), "") << harmless;
+  for (const char* unknown :
+       {"G41 X5\nIF R1==1\nG40\nENDIF", "IF R1==1 GOTOF NEXT_1\nG41\nNEXT_1:", "G41 X5\n/G40", "G41 X5\nCALL R2"})
+    EXPECT_EQ(told(std::string(unknown) + "\n" + cycle).find("is active"), std::string::npos) << unknown;
+}
+
 TEST(SinumerikCheck, LengthsBelowZeroAreMistakes) {
   EXPECT_NE(told("CYCLE978(0,,,1,0,-5,3,1,1)\nM30").find("argument 6 of CYCLE978: S_FA"), std::string::npos);
   EXPECT_NE(told("CYCLE978(0,,,1,0,5,-3,1,1)\nM30").find("argument 7 of CYCLE978: S_TSA"), std::string::npos);

@@ -61,6 +61,8 @@ TEST(SinumerikEffects, WhatIsNotCarriedOutIsNamedOnceAndRefusedUnderStrict) {
       {"$P_EXTFRAME=CTRANS(X,3)", "$P_EXTFRAME"},
       {"$P_CYCFRAME[X,TR]=3", "$P_CYCFRAME"},
       {"$P_TRAFR=CTRANS(X,3)", "$P_TRAFR"},
+      {"$P_CHBFRMASK=0", "$P_CHBFRMASK"},
+      {"$P_NCBFRMASK=1", "$P_NCBFRMASK"},
       {"$P_GFR[1]=CTRANS(X,3)", "$P_GFR"},
   };
   for (const auto& [block, name] : words) {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "cycles/sinumerik/call_combinations.hpp"
 #include "cycles/sinumerik/context.hpp"
 #include "cycles/sinumerik/machine_coordinates.hpp"
 #include "cycles/sinumerik/old_call.hpp"
@@ -48,23 +49,40 @@ struct Variant {
   bool adaptLength = false;
 };
 
+/// `digit` gives a digit of S_MVAR, from the right from 1.
+template <typename Digit>
+Variant readVariant(const Digit& digit) {
+  return {.length = digit(1) % 2 == 0,
+          .inGroove = digit(1) >= 2,
+          .directions = digit(4),
+          .deviation = digit(5) == 0,
+          .adaptLength = digit(7) == 1};
+}
+
+/// What S_MVAR says that does not fit together; null if it does.
+const char* contradiction(const Variant& variant) {
+  if (!variant.inGroove && variant.directions != 1) return "a surface is touched in one given direction";
+  if (variant.inGroove && variant.length && variant.directions != 0) return "the length is found on the groove's base";
+  if (variant.inGroove && !variant.length && variant.directions == 0) return "the walls need axis and direction";
+  if (variant.adaptLength && !variant.length) return "a radius does not correct the length";
+  return nullptr;
+}
+
+void combinations(CallCombinations& call) {
+  if (const char* why = contradiction(readVariant([&](int place) { return call.digit(place); })))
+    call.refuse("S_MVAR", std::string("S_MVAR does not fit together: ") + why);
+}
+
 Variant variantOf(Context& context) {
   const auto digit = [&](int place) { return context.digit("S_MVAR", place); };
-  const Variant variant = {.length = digit(1) % 2 == 0,
-                           .inGroove = digit(1) >= 2,
-                           .directions = digit(4),
-                           .deviation = digit(5) == 0,
-                           .adaptLength = digit(7) == 1};
+  const Variant variant = readVariant(digit);
   const int code = context.integer("S_MVAR");
   const auto refuse = [&](const char* why) { context.alarm(61307, fmt::format("S_MVAR = {}: {}", code, why)); };
   if (code < 0 || code >= 10000000 || digit(1) > 3 || digit(2) != 0 || digit(3) != 1 || digit(4) > 2 || digit(5) > 1 ||
       digit(6) != 0 || digit(7) > 1) {
     refuse("no such digit");
   }
-  if (!variant.inGroove && variant.directions != 1) refuse("a surface is touched in one given direction");
-  if (variant.inGroove && variant.length && variant.directions != 0) refuse("the length is found on the groove's base");
-  if (variant.inGroove && !variant.length && variant.directions == 0) refuse("the walls need axis and direction");
-  if (variant.adaptLength && !variant.length) refuse("a radius does not correct the length");
+  if (const char* why = contradiction(variant)) refuse(why);
   return variant;
 }
 
@@ -233,7 +251,11 @@ void run(Context& context, const Arguments&) {
 
 }  // namespace
 
-extern const Entry cycle973 = {
-    .definition = definition, .requirements = requirements, .oldForm = oldForm, .alarms = alarms, .run = run};
+extern const Entry cycle973 = {.definition = definition,
+                               .requirements = requirements,
+                               .combinations = combinations,
+                               .oldForm = oldForm,
+                               .alarms = alarms,
+                               .run = run};
 
 }  // namespace probewright::cycles::sinumerik

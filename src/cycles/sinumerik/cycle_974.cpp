@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "cycles/sinumerik/call_combinations.hpp"
 #include "cycles/sinumerik/context.hpp"
 #include "cycles/sinumerik/old_call.hpp"
 #include "cycles/sinumerik/parameters.hpp"
@@ -84,6 +85,19 @@ constexpr CycleDefinition definition = {
     .controls = control::onSinumerik,
 };
 
+/// What does not fit together of a measurement with reversal; null if it does.
+const char* contradiction(bool face, bool zeroOffset) {
+  if (face) return "a front edge is not measured with reversal";
+  if (zeroOffset) return "with reversal no zero offset is corrected";
+  return nullptr;
+}
+
+void combinations(CallCombinations& call) {
+  if (call.digit(5) != 1) return;
+  if (const char* why = contradiction(call.digit(1) == 0, call.digit(3) == 1))
+    call.refuse("S_MVAR", std::string("S_MVAR does not fit together: ") + why);
+}
+
 void run(Context& context, const Arguments&) {
   requireTurningProbe(context);
   requireUnturned(context);
@@ -93,8 +107,8 @@ void run(Context& context, const Arguments&) {
   const auto feature = static_cast<TurnedFeature>(units);
   const Task task = taskOf(context);
   if (reversal == 1) {
-    if (feature == TurnedFeature::Face) context.alarm(61307, "a front edge is not measured with reversal");
-    if (task == Task::ZeroOffset) context.alarm(61307, "with reversal no zero offset is corrected");
+    if (const char* why = contradiction(feature == TurnedFeature::Face, task == Task::ZeroOffset))
+      context.alarm(61307, why);
     requireWorkpieceSpindle(context);
   }
   const int axis = turningAxis(context, context.integer("S_MA"));
@@ -139,6 +153,7 @@ void run(Context& context, const Arguments&) {
 extern const Entry cycle974 = {.definition = definition,
                                .title = {.byFeature = true, .sizes = titleSizes},
                                .requirements = requirements,
+                               .combinations = combinations,
                                .oldForm = oldForm,
                                .run = run};
 

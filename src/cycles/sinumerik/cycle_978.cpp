@@ -1,3 +1,5 @@
+#include "base/truncated.hpp"
+#include "cycles/sinumerik/call_combinations.hpp"
 #include "cycles/sinumerik/context.hpp"
 #include "cycles/sinumerik/corrections.hpp"
 #include "cycles/sinumerik/measuring_method.hpp"
@@ -69,6 +71,14 @@ constexpr CycleDefinition definition = {
     .examples = examples,
 };
 
+constexpr const char* upright = "along the tool only the standard method measures";
+
+void combinations(CallCombinations& call) {
+  const auto axis = call.number("S_MA");
+  if (axis && truncated(*axis) == 3 && call.digit(5) != 0)
+    call.refuse("S_MVAR", std::string("S_MVAR does not fit S_MA: ") + upright);
+}
+
 void run(Context& context, const Arguments&) {
   context.requireProbe({710, 712, 713, 580});
   if (context.digit("S_MVAR", 1) != 0) context.alarm(61307);
@@ -76,7 +86,7 @@ void run(Context& context, const Arguments&) {
   const Method method = methodOf(context);
   requireCalibrationFor(context, method);
   const int axis = context.measuringAxis(3);
-  if (axis == 2 && method != Method::Standard) context.alarm(61307, "along the tool only the standard method measures");
+  if (axis == 2 && method != Method::Standard) context.alarm(61307, upright);
   const auto target = task == Task::ZeroOffset ? frameTarget(context, GlobalBase::Allowed) : std::nullopt;
 
   const double empirical = task == Task::MeasureOnly ? 0 : empiricalValue(context);
@@ -117,6 +127,10 @@ void run(Context& context, const Arguments&) {
 
 }  // namespace
 
-extern const Entry cycle978 = {.definition = definition, .requirements = requirements, .oldForm = oldForm, .run = run};
+extern const Entry cycle978 = {.definition = definition,
+                               .requirements = requirements,
+                               .combinations = combinations,
+                               .oldForm = oldForm,
+                               .run = run};
 
 }  // namespace probewright::cycles::sinumerik

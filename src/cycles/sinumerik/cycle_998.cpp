@@ -4,7 +4,9 @@
 #include <cmath>
 #include <vector>
 
+#include "base/truncated.hpp"
 #include "cycles/fit_records.hpp"
+#include "cycles/sinumerik/call_combinations.hpp"
 #include "cycles/sinumerik/context.hpp"
 #include "cycles/sinumerik/corrections.hpp"
 #include "cycles/sinumerik/measuring_method.hpp"
@@ -167,6 +169,10 @@ private:
   std::vector<std::size_t> places_;
 };
 
+constexpr const char* reversedInPlane = "spindle reversal measures only in the plane";
+constexpr const char* planeAlongTool = "a plane is measured along the tool by the standard method only";
+constexpr const char* planeTurns = "a plane corrects rotations only: S_RA = 0";
+
 void correctAngle(Context& context, const FrameTarget& target, const PlaneWay& about, double angle) {
   const int rotaryAxis = context.integer("S_RA");
   if (rotaryAxis == 0) {
@@ -190,7 +196,7 @@ void measureEdge(Context& context, const std::optional<FrameTarget>& target, Met
   if (!(distance > 0)) context.alarm(61319, "S_ID, the distance of the points, must be greater than 0");
   if (std::abs(set) > greatestAngle) context.alarm(61319, "S_STA1 is between -45 and 45 degrees");
   if (method != Method::Standard && measuring == 2) {
-    context.alarm(61307, "spindle reversal measures only in the plane");
+    context.alarm(61307, reversedInPlane);
   }
 
   // The angle counts from the positive offset axis, counter-clockwise about the third axis.
@@ -238,9 +244,8 @@ Matrix3 planeOrientation(double aboutFirst, double aboutSecond) {
 }
 
 void measurePlane(Context& context, const std::optional<FrameTarget>& target, Method method) {
-  if (method != Method::Standard)
-    context.alarm(61307, "a plane is measured along the tool by the standard method only");
-  if (context.integer("S_RA") != 0) context.alarm(61329, "a plane corrects rotations only: S_RA = 0");
+  if (method != Method::Standard) context.alarm(61307, planeAlongTool);
+  if (context.integer("S_RA") != 0) context.alarm(61329, planeTurns);
   const double setFirst = context.real("S_STA1"), setSecond = context.real("S_INCA");
   if (std::abs(setFirst) > 60) context.alarm(61319, "S_STA1 of a plane is between -60 and 60 degrees");
   if (std::abs(setSecond) > 30) context.alarm(61319, "S_INCA is between -30 and 30 degrees");
@@ -336,6 +341,20 @@ constexpr CycleDefinition definition = {
     .examples = examples,
 };
 
+void combinations(CallCombinations& call) {
+  const auto refuse = [&](const char* parameter, const char* why) {
+    call.refuse(parameter, fmt::format("{} does not fit the measuring variant: {}", parameter, why));
+  };
+  const bool plane = call.digit(1) == 6, standard = call.digit(5) == 0;
+  if (plane) {
+    const auto rotary = call.number("S_RA");
+    if (!standard) refuse("S_MVAR", planeAlongTool);
+    if (rotary && truncated(*rotary) != 0) refuse("S_RA", planeTurns);
+  } else if (const auto axes = call.number("S_MA"); axes && truncated(std::abs(*axes)) % 10 == 3 && !standard) {
+    refuse("S_MA", reversedInPlane);
+  }
+}
+
 void run(Context& context, const Arguments&) {
   context.requireProbe({710, 712, 580});
   const int units = context.digit("S_MVAR", 1);
@@ -355,6 +374,10 @@ void run(Context& context, const Arguments&) {
 
 }  // namespace
 
-extern const Entry cycle998 = {.definition = definition, .requirements = requirements, .oldForm = oldForm, .run = run};
+extern const Entry cycle998 = {.definition = definition,
+                               .requirements = requirements,
+                               .combinations = combinations,
+                               .oldForm = oldForm,
+                               .run = run};
 
 }  // namespace probewright::cycles::sinumerik

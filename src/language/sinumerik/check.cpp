@@ -290,6 +290,7 @@ Diagnostics Checker::run() {
       continue;
     }
     if (found_.size() > before) declareFromBrokenBlock();
+    if (block_.skippable || block_.label.length > 0) state_ = {};
     for (const Instruction& instruction : block_.instructions)
       declare(instruction);
     checkNames();
@@ -300,6 +301,7 @@ Diagnostics Checker::run() {
     checkFunctions();
     for (const Instruction& instruction : block_.instructions) {
       checkInstruction(instruction);
+      followState(instruction);
       noteForModalWords(instruction);
     }
   }

@@ -88,6 +88,14 @@ void Checker::checkSection(const CallProgram& call, Program& other) {
            fmt::format("The label {} is missing there, or comes before {}.", first ? to : from, from));
 }
 
+/// A cycle of the control, not a program or a macro of that name.
+bool Checker::callsCycle(const CallProgram& call) const {
+  if (call.nameValue.present() || call.name.length == 0 || !call.maybeCycle) return false;
+  const std::string path = upperCase(block_.at(call.name)), name = plainName(path);
+  const bool beside = options_.library != nullptr && options_.library->exists(path, &program_);
+  return !beside && !macros_.contains(name) && cycles::sinumerikCycle(name) != nullptr;
+}
+
 void Checker::checkCall(const CallProgram& call) {
   if (call.nameValue.present() || call.name.length == 0) return;
   const std::string path = upperCase(block_.at(call.name)), name = plainName(path);
@@ -110,6 +118,7 @@ void Checker::checkCall(const CallProgram& call) {
   if (call.maybeCycle) {
     if (const cycles::CycleDefinition* cycle = cycles::sinumerikCycle(name)) {
       callsHook_ = true;
+      checkState(cycle->name);
       // A subprogram and a program that calls others may find the variables written.
       const bool oldForm = call.arguments.count == 0 && cycles::sinumerik::hasOldForm(*cycle);
       if (oldForm && (oldParameters_ || callsPrograms_ || upperCase(program_.file()).ends_with(".SPF"))) return;

@@ -26,6 +26,12 @@ private:
     Diagnostic complaint;
   };
 
+  /// What blocks before have switched on, as far as it is known without a run.
+  struct State {
+    std::string correction;  ///< G41, G42; empty: G40, or not known
+    bool scaled = false;     ///< by SCALE or ASCALE with a factor other than 1
+  };
+
   std::size_t columnOf(std::string_view name) const;
   Diagnostic complaint(std::size_t column, std::string message, std::string advice) const;
   void report(std::size_t column, std::string message, std::string advice, Severity severity = Severity::Error);
@@ -43,6 +49,9 @@ private:
   void checkArguments(const std::vector<ArgumentMistake>& mistakes);
   void checkParameters(const CallProgram& call, const BlockParser::Header& header);
   void checkLabels();
+  void followState(const Instruction& instruction);
+  void checkState(std::string_view cycle);
+  bool callsCycle(const CallProgram& call) const;
   void noteForModalWords(const Instruction& instruction);
   void checkModalWords();
   void checkType(const CallProgram& call, const BlockParser::Header& header, std::size_t place);
@@ -60,10 +69,11 @@ private:
   std::set<std::string, std::less<>> targets_;  ///< of jumps and repetitions
   bool jumpsAnywhere_ = false;                  ///< to a label that only the run knows
   bool modalWords_ = false;                     ///< a motion has other words than X, Y, Z
-  bool begun_ = false;                          ///< a block was met that is carried out
-  bool toldOrder_ = false;                      ///< of a DEF after it
-  std::set<std::string> told_;                  ///< system variables and words that were reported
-  std::map<std::string, Diagnostic> unknown_;   ///< first use of each name that no DEF came before
+  State state_;
+  bool begun_ = false;                         ///< a block was met that is carried out
+  bool toldOrder_ = false;                     ///< of a DEF after it
+  std::set<std::string> told_;                 ///< system variables and words that were reported
+  std::map<std::string, Diagnostic> unknown_;  ///< first use of each name that no DEF came before
 };
 
 }  // namespace probewright::language::sinumerik

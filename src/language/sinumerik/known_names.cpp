@@ -121,9 +121,10 @@ std::string_view skippedTransformation(std::span<const std::optional<double>> ar
 
 bool isFrameWithoutEffect(std::string_view name) {
   static constexpr std::string_view names[] = {
-      "$P_EXTFRAME",  "$P_TRAFRAME",  "$P_CYCFRAME", "$P_GFRAME", "$P_ISO1FRAME", "$P_ISO2FRAME", "$P_ISO3FRAME",
-      "$P_ISO4FRAME", "$P_EXTSFRAME", "$P_EXTFR",    "$P_TOOLFR", "$P_PARTFR",    "$P_TRAFR",     "$P_WPFR",
-      "$P_CYCFR",     "$P_GFR",       "$P_ISO1FR",   "$P_ISO2FR", "$P_ISO3FR",    "$P_ISO4FR"};
+      "$P_EXTFRAME",  "$P_TRAFRAME",  "$P_CYCFRAME",  "$P_GFRAME",    "$P_ISO1FRAME", "$P_ISO2FRAME",
+      "$P_ISO3FRAME", "$P_ISO4FRAME", "$P_EXTSFRAME", "$P_EXTFR",     "$P_TOOLFR",    "$P_PARTFR",
+      "$P_TRAFR",     "$P_WPFR",      "$P_CYCFR",     "$P_GFR",       "$P_ISO1FR",    "$P_ISO2FR",
+      "$P_ISO3FR",    "$P_ISO4FR",    "$P_CHBFRMASK", "$P_NCBFRMASK", "$P_CHSFRMASK"};
   return std::ranges::find(names, name) != std::end(names);
 }
 
