@@ -36,9 +36,12 @@ bool isParameter(std::string_view text) {
 constexpr int results = 32;  ///< _OVR[0] to _OVR[31]
 
 /// Q100 to Q199, which the control and its cycles fill, and what touch probe cycles take and leave beyond.
-bool belongsToCycles(int number) {
+const std::set<int>& parametersOfCycles() {
   static const std::set<int> taken = [] {
     std::set<int> all;
+    constexpr int firstFilled = 100, lastFilled = 199;
+    for (int number = firstFilled; number <= lastFilled; ++number)
+      all.insert(number);
     const auto add = [&](std::string_view name) {
       if (isParameter(name) && isDigit(name[1])) all.insert(truncated(parseDecimal(name.substr(1)).value_or(0)));
     };
@@ -52,8 +55,33 @@ bool belongsToCycles(int number) {
     }
     return all;
   }();
-  constexpr int firstFilled = 100, lastFilled = 199;
-  return (number >= firstFilled && number <= lastFilled) || taken.contains(number);
+  return taken;
+}
+
+/// Of an R parameter that stands for Q100 and on of several programs. Those that cycles or the converter's own values
+/// would overwrite follow each other from Q1200 on, in every program of the job: Q150 becomes Q1250.
+int sharedParameter(int index) {
+  constexpr int firstMoved = 1200, lastMoved = 1599;
+  static const std::map<int, int> moved = [] {
+    std::map<int, int> all;
+    const auto move = [&](int number) { all.emplace(number, firstMoved + static_cast<int>(all.size())); };
+    for (const int number : parametersOfCycles())
+      move(number);
+    for (int number = firstResult; number < firstResult + results; ++number)
+      move(number);
+    for (int number = firstHelper; number <= lastHelper; ++number)
+      move(number);
+    return all;
+  }();
+  const int number = index - sharedQ;
+  const auto other = moved.find(number);
+  const bool taken = index < firstShared || index >= sharedQR || (number >= firstMoved && number <= lastMoved);
+  if (taken || (other != moved.end() && other->second > lastMoved)) {
+    throw NotCarriedOver(fmt::format("R{} has no twin beside parameters of several programs", index),
+                         fmt::format("take another one: R0 to R99, R{} to R{} or R{} to R{}", firstShared,
+                                     firstMoved + sharedQ - 1, lastMoved + sharedQ + 1, sharedQR + 499));
+  }
+  return other == moved.end() ? number : other->second;
 }
 
 }  // namespace
@@ -65,7 +93,7 @@ bool KlartextFormulas::namesParameter(std::string_view variable) {
   const int number = truncated(parseDecimal(variable.substr(2)).value_or(0));
   const auto within = [&](int first, int last) { return number >= first && number <= last; };
   // A cycle would overwrite the variable.
-  return (within(100, 1199) && !belongsToCycles(number)) ||
+  return (within(100, 1199) && !parametersOfCycles().contains(number)) ||
          (within(1600, 1999) && !within(firstResult, firstResult + results - 1) && !within(firstHelper, lastHelper));
 }
 
@@ -102,9 +130,8 @@ std::string KlartextFormulas::variable(const Block& block, const VariableRef& va
         throw NotCarriedOver("an R parameter whose number is computed has no twin in Klartext");
       }
       if (index < 100) return fmt::format("Q{}", index);
-      if (shared_ && index >= firstShared) {
-        return index < sharedQR ? fmt::format("Q{}", index - sharedQ) : fmt::format("QR{}", index - sharedQR);
-      }
+      if (shared_ && index >= sharedQR && index < sharedQR + 500) return fmt::format("QR{}", index - sharedQR);
+      if (shared_) return fmt::format("Q{}", sharedParameter(index));
       if (index < 500) return fmt::format("Q{}", index + 1100);
       throw NotCarriedOver(fmt::format("R{} has no twin: R0 to R499 have", index));
     case VariableSpace::User: {

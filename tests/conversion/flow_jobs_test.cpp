@@ -245,6 +245,34 @@ TEST(ConvertJobs, NameResultsThatCountInTheUnitOfTheMainProgram) {
   }
 }
 
+/// Parameters of several programs keep their values while cycles run that fill Q150 and on, in all programs alike.
+TEST(ConvertJobs, KeepSharedParametersThatCyclesWouldOverwrite) {
+  Dice dice(11);
+  const Vector3 n = World(dice).nominal();
+  const std::string remark = "; R500 AND ON: Q100 AND ON, R2400 AND ON: QR0 AND ON\n";
+  std::string main = fmt::format("{}G17 G90 G71 G54\nT1\nM6 D1\nG0 Z{:.6f}\n", remark, n.z() + 60);
+  std::string places;
+  double x = -40;
+  // Q100, Q150 and on, those of 427, _OVR[4] and a helper of the converter; Q1199, Q1600 and QR0 belong to nobody.
+  for (const int parameter : {500, 550, 560, 580, 599, 660, 661, 667, 2104, 2300, 1599, 2000, 2400}) {
+    main += fmt::format("R{}={:.6f}\n", parameter, n.x() + x);
+    places += fmt::format("G0 X=R{} Y{:.6f}\nG0 Z{:.6f}\nCYCLE978(0,,,1,{:.6f},5,4,3,2,1)\nR3=_OVR[4]\nG0 Z{:.6f}\n",
+                          parameter, n.y() - 30, n.z() + 6, n.z(), n.z() + 60);
+    x += 4;
+  }
+  const std::string sub = remark + downwards978(n, 30, -20, 1) + "R1=R560+_OVR[4]\n" + places + "M17\n";
+  expectTheSame({{"MAIN.MPF", main + "SUB\n" + places + "M30\n"}, {"SUB.SPF", sub}}, "MAIN.MPF",
+                ProgramLanguage::Klartext);
+  // What would share a parameter with another one is listed.
+  for (const int parameter : {100, 499, 1600, 1999, 2900}) {
+    const Files files = {{"MAIN.MPF", fmt::format("{}G17 G90 G71\nR{}=1\nSUB\nM30\n", remark, parameter)},
+                         {"SUB.SPF", "M17\n"}};
+    const JobFolder folder("probewright-job-taken");
+    put(folder, files);
+    EXPECT_FALSE(converted(folder, files, ProgramLanguage::Klartext, ".H").has_value()) << parameter;
+  }
+}
+
 /// RET in the middle of a subprogram.
 TEST(ConvertJobs, ReturnEarly) {
   Dice dice(11);
