@@ -97,10 +97,16 @@ private:
     Limits limits{most - size, least - size};
     if (none == Alone::Each && most == 0) limits.upper = unlimited;
     if (none == Alone::Each && least == 0) limits.lower = -unlimited;
+    if (none == Alone::Each) {
+      if (!most.isNumber()) limits.upperUnlessZero = {most};
+      if (!least.isNumber()) limits.lowerUnlessZero = {least};
+      return limits;
+    }
     const auto isSet = [](const Quantity& each) { return each.isNumber() && !(each == 0); };
     if (isSet(most) || isSet(least)) return limits;
     for (const Quantity& each : {most, least})
-      if (!each.isNumber()) limits.unlessZero.push_back(each);
+      if (!each.isNumber()) limits.upperUnlessZero.push_back(each);
+    limits.lowerUnlessZero = limits.upperUnlessZero;
     return limits;
   }
 

@@ -157,11 +157,13 @@ void ToSinumerik::judgePattern(const Block& block, const MeasuringTask& pattern,
   if (pattern.limits[0]) {
     const Quantity deviation = Quantity::of(diameter) - pattern.size[0];
     const Limits& limits = *pattern.limits[0];
-    for (const auto& [sign, limit] : {std::pair('>', &limits.upper), std::pair('<', &limits.lower)}) {
-      if (*limit == unlimited || *limit == -unlimited) continue;
-      scrap.push_back(onlyUnlessZero(limits.unlessZero,
-                                     fmt::format("({}{}{})", sinumerikText(deviation), sign, sinumerikText(*limit))));
-    }
+    const std::string value = sinumerikText(deviation);
+    if (!(limits.upper == unlimited))
+      scrap.push_back(
+          onlyUnlessZero(limits.upperUnlessZero, fmt::format("({}>{})", value, sinumerikText(limits.upper))));
+    if (!(limits.lower == -unlimited))
+      scrap.push_back(
+          onlyUnlessZero(limits.lowerUnlessZero, fmt::format("({}<{})", value, sinumerikText(limits.lower))));
   }
   for (std::size_t i = 0; i < 2; ++i) {
     if (pattern.centreTolerance[i] == 0) continue;

@@ -75,8 +75,10 @@ inline constexpr double unlimited = 100000;
 
 struct Limits {
   Quantity upper, lower;  ///< deviations from the set size
-  /// Where only the running program knows whether there are limits: values that are all 0 if there are none.
-  std::vector<Quantity> unlessZero = {};
+  /// Where only the running program knows whether there is a limit: values that are all 0 if there is none.
+  std::vector<Quantity> upperUnlessZero = {}, lowerUnlessZero = {};
+
+  bool areCertain() const { return upperUnlessZero.empty() && lowerUnlessZero.empty(); }
 };
 
 /// The tool that made what is measured, corrected by half the deviation of a size or the whole one of a surface.

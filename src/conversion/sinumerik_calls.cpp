@@ -141,11 +141,10 @@ private:
   std::optional<Limits> commonLimits() const {
     if (!task_.limits[0]) return std::nullopt;
     Limits limits = *task_.limits[0];
-    if (!limits.unlessZero.empty()) return std::nullopt;
+    if (!limits.areCertain()) return std::nullopt;
     if (isRectangular(task_.feature)) {
       const auto& second = task_.limits[1];
-      if (!second || !second->unlessZero.empty() || !(second->upper == limits.upper) ||
-          !(second->lower == limits.lower))
+      if (!second || !second->areCertain() || !(second->upper == limits.upper) || !(second->lower == limits.lower))
         return std::nullopt;
     }
     if (!(limits.upper - limits.lower).isNumber()) return std::nullopt;
@@ -189,8 +188,8 @@ private:
   }
 
   bool aboutNominal() const {
-    const auto& [upper, lower, unlessZero] = *task_.limits[0];
-    return unlessZero.empty() && upper == -lower && upper.isNumber() && upper.number() > 0;
+    const Limits& limits = *task_.limits[0];
+    return limits.areCertain() && limits.upper == -limits.lower && limits.upper.isNumber() && limits.upper.number() > 0;
   }
 
   /// In the wear of its first edge, by the whole difference.

@@ -126,8 +126,9 @@ void ToSinumerik::judge(const Block& block, const MeasuringTask& task, const Sin
   }
   const Results results = resultsOf(task, passage);
   std::vector<std::string> rework, scrap;
-  const auto compare = [&](Meaning meaning, const char* sign, const Quantity& limit, const Limits& limits) {
-    return onlyUnlessZero(limits.unlessZero, fmt::format("({}{}{})", results.at(meaning), sign, sinumerikText(limit)));
+  const auto compare = [&](Meaning meaning, const char* sign, const Quantity& limit,
+                           const std::vector<Quantity>& unlessZero) {
+    return onlyUnlessZero(unlessZero, fmt::format("({}{}{})", results.at(meaning), sign, sinumerikText(limit)));
   };
   const bool surface = task.feature == Feature::Surface;
   static constexpr Meaning sizes[] = {Meaning::Size1Deviation, Meaning::Size2Deviation};
@@ -140,12 +141,15 @@ void ToSinumerik::judge(const Block& block, const MeasuringTask& task, const Sin
                 "give Q288 and Q289 as numbers, or make sure that Q288 is the larger one");
     } else if (surface && (limits.upper - limits.lower).number() < 0) {
       std::swap(limits.upper, limits.lower);
+      std::swap(limits.upperUnlessZero, limits.lowerUnlessZero);
       inside = true;
     }
     const Meaning meaning = surface ? Meaning::CoordinateDeviation : sizes[i];
     // What is too small inside, or too large outside, still has material to take away.
-    if (!(limits.upper == unlimited)) (inside ? scrap : rework).push_back(compare(meaning, ">", limits.upper, limits));
-    if (!(limits.lower == -unlimited)) (inside ? rework : scrap).push_back(compare(meaning, "<", limits.lower, limits));
+    if (!(limits.upper == unlimited))
+      (inside ? scrap : rework).push_back(compare(meaning, ">", limits.upper, limits.upperUnlessZero));
+    if (!(limits.lower == -unlimited))
+      (inside ? rework : scrap).push_back(compare(meaning, "<", limits.lower, limits.lowerUnlessZero));
   }
   static constexpr Meaning centres[] = {Meaning::Centre1Deviation, Meaning::Centre2Deviation};
   for (std::size_t i = 0; i < 2; ++i) {

@@ -275,6 +275,42 @@ TEST(ConvertRunningValues, MonitorsNoLimitOfZero) {
   }
 }
 
+/// Which of two limits is 0 only the running program knows.
+TEST(ConvertRunningValues, MonitorsNoSideWhoseLimitIsZeroInTheRun) {
+  struct Case {
+    double upper, lower;
+    bool upperHeld, lowerHeld;  ///< by a parameter
+  };
+  for (const double hole : {49.8, 50.2}) {
+    const PlantedPart part = blockWithHole(hole);
+    for (const Case& each : std::vector<Case>{{50, 0, true, true},
+                                              {0, 50, true, true},
+                                              {0, 0, true, true},
+                                              {50.1, 49.9, true, true},
+                                              {50.5, 49.5, true, true},
+                                              {0, 49.9, true, false},
+                                              {50.1, 0, false, true},
+                                              {50.1, 49.9, false, true}}) {
+      SCOPED_TRACE(
+          fmt::format("hole {}, limits {} {}, {} {}", hole, each.upper, each.lower, each.upperHeld, each.lowerHeld));
+      const auto limit = [](const char* parameter, double value, bool held) {
+        return held ? std::string(parameter) : fmt::format("{:+}", value);
+      };
+      const Twin original = runKlartext(klartextProgram(fmt::format("Q5 = {}\nQ6 = {}\n", each.upper, each.lower) +
+                                                        inspectHole({{275, limit("+Q5", each.upper, each.upperHeld)},
+                                                                     {276, limit("+Q6", each.lower, each.lowerHeld)},
+                                                                     {309, "+1"}}) +
+                                                        "L X+3 Y+4 FMAX\n"),
+                                        part);
+      const bool exceeded = (each.upper != 0 && hole > each.upper) || (each.lower != 0 && hole < each.lower);
+      EXPECT_EQ(original.finished, !exceeded) << original.why;
+      const Twin there = runConverted(original, part);
+      EXPECT_TRUE(there.lost.empty()) << messagesOf(there.lost);
+      EXPECT_EQ(there.finished, !exceeded) << there.why << there.text;
+    }
+  }
+}
+
 /// S_KNUM without a number corrects nothing.
 TEST(ConvertRunningValues, CorrectsNothingWithoutANumber) {
   const PlantedPart part = blockWithHole(50.2);
