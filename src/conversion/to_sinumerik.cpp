@@ -267,6 +267,7 @@ void ToSinumerik::toolCall(const Block& block, const ToolCall& call) {
     if (!none) out_.lose(block, fmt::format("{} of the tool call", name));
   }
   if (call.index.present()) out_.lose(block, "the step index of the tool");
+  if (call.cuttingSpeed.present()) out_.lose(block, "the cutting speed VC of the tool call");
   if (call.axis != 0) {
     toolAxis_ = call.axis;
     axisDoubtful_ = false;

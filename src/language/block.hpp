@@ -262,6 +262,7 @@ struct ToolCall {
   Operand index{};  ///< HEIDENHAIN step index (5.1); SINUMERIK unused
   char axis = 0;    ///< HEIDENHAIN tool axis letter or 0
   Operand spindleSpeed{};
+  Operand cuttingSpeed{};  ///< HEIDENHAIN S(VC=...)
   Operand feed{};
   Operand deltaLength{}, deltaRadius{}, deltaRadius2{};
 };

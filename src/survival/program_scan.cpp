@@ -187,8 +187,8 @@ private:
   }
   void look(const Block& block, const language::ToolCall& call) {
     Reads reads(block);
-    for (const Operand& operand : {call.number, call.name, call.index, call.spindleSpeed, call.feed, call.deltaLength,
-                                   call.deltaRadius, call.deltaRadius2})
+    for (const Operand& operand : {call.number, call.name, call.index, call.spindleSpeed, call.cuttingSpeed, call.feed,
+                                   call.deltaLength, call.deltaRadius, call.deltaRadius2})
       reads.add(operand);
     use(reads);
   }

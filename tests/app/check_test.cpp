@@ -198,7 +198,8 @@ TEST(Check, KnowsWhatNeedsOtherAxesThanTheSetupHas) {
   };
   for (const auto& [block, place, said] : std::vector<std::array<std::string, 3>>{
            {"TRANS DATUM AXIS A+5", "3:18", "the machine of the setup has no axis A"},
-           {"TRANS MIRROR AXIS A", "3:20", "the machine of the setup has no axis A"},
+           {"CYCL DEF 8.0 MIRRORING\nCYCL DEF 8.1 X A", "3:16", "the machine of the setup has no axis A"},
+           {"TRANS MIRROR AXIS A", "3:19", "the machine of the setup has no axis A"},
            {"CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 C+5", "3:14", "the machine of the setup has no axis C"},
            {"PLANE AXIAL B+10 STAY", "3:13", "the machine of the setup has no axis B"},
            {"PRESET CORR A+5", "3:13", "the machine of the setup has no axis A"},

@@ -414,7 +414,8 @@ TEST(ConvertPromises, NamesWordsThatWouldLeadElsewhere) {
 }
 
 TEST(ConvertPromises, NamesWordsOfPathsThatASinumerikDoesNotHave) {
-  for (const char* block : {"L X+5 FU0.2", "L X+5 FZ0.1", "L X+5 FAUTO", "LN X+5 Y+5 NX0 NY0 NZ1", "L X+5 R+"}) {
+  for (const char* block :
+       {"L X+5 FU0.2", "L X+5 FZ0.1", "L X+5 FAUTO", "LN X+5 Y+5 NX0 NY0 NZ1", "L X+5 R+", "TOOL CALL 1 Z S(VC=120)"}) {
     const conversion::Conversion there =
         toSinumerik(klartextProgram("L X+0 Y+0 R0 F500\n" + std::string(block) + "\n"));
     EXPECT_FALSE(there.notCarriedOver.empty()) << block;

@@ -48,6 +48,7 @@ std::map<std::string, std::vector<Pair>> examples() {
       {"G90, G91", {{"G01 G90 X+1 F9 *", "L X+1 F9"}, {"G01 G91 X+1 F9 *", "L IX+1 F9"}}},
       {"T5 G17 S F DL DR DR2; S500",
        {{"T5 G17 S2500 F350 DL+0.2 DR-1 DR2+0.05 *", "TOOL CALL 5 Z S2500 F350 DL+0.2 DR-1 DR2+0.05"},
+        {"T5 G17 S(VC=120) *", "TOOL CALL 5 Z S(VC=120)"},
         {"S500 *", "TOOL CALL S500"}}},
       {"G17, G18, G19", {{"T1 G17 *", "TOOL CALL 1 Z"}, {"T1 G18 *", "TOOL CALL 1 Y"}, {"T1 G19 *", "TOOL CALL 1 X"}}},
       {"G99 T L R; G51 T", {{"G99 T5 L+10 R+3 *", "TOOL DEF 5 L+10 R+3"}, {"G51 T6 *", "TOOL DEF 6"}}},

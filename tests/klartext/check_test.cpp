@@ -184,6 +184,8 @@ TEST(Check, WhatTheControlDoesNotHave) {
             "a.h:2:3: warning: there is no group 119 of global definitions: the run stops at this block");
   EXPECT_EQ(mistakes("1 L X+1 R0 FMAX M98\n", newer), "a.h:2:3: warning: M98 is not carried out");
   EXPECT_EQ(mistakes("1 L X+1 R0 FMAX M120 LA5\n", older), "a.h:2:3: warning: M120 is not carried out");
+  EXPECT_EQ(mistakes("1 TOOL CALL 1 Z S(VC=120)\n2 TOOL CALL S(VC=Q1)\n", newer),
+            "a.h:2:3: warning: the cutting speed VC of TOOL CALL is not carried out");
   EXPECT_EQ(mistakes("1 M150\n", newer), "a.h:2:3: warning: M150 is not carried out");
   EXPECT_EQ(mistakes("1 M197\n", newer), "a.h:2:3: warning: M197 is not carried out");
   EXPECT_EQ(mistakes("1 M114\n", newer), "a.h:2:3: warning: the TNC640 does not have M114");

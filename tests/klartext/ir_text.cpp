@@ -137,6 +137,7 @@ struct Writer {
     part("index", i.index);
     if (i.axis != 0) out += std::string(" axis=") + i.axis;
     part("S", i.spindleSpeed);
+    part("VC", i.cuttingSpeed);
     part("F", i.feed);
     part("DL", i.deltaLength);
     part("DR", i.deltaRadius);

@@ -61,7 +61,10 @@ TEST(SinumerikBlockWords, ThatTheBlockItselfTells) {
       {"S500 S600", "the address S appears twice in this block", "12010"},
       {"D1 D2", "the address D appears twice in this block", "12010"},
       {"M3 M4", "an M function of the spindle appears twice in this block", "14760"},
-      {"M2=3 M2=5", "an M function of spindle 2 appears twice in this block", "14760"}};
+      {"M2=3 M2=5", "an M function of spindle 2 appears twice in this block", "14760"},
+      {"DL[X]=5", "DL takes no index", ""},
+      {"DL1=5", "DL1 is not declared", ""},
+      {"FA=5", "FA needs the axis in brackets", ""}};
   for (const Case& each : cases) {
     const std::string text = before + each.block + "\nM30\n";
     EXPECT_EQ(mistake(text), each.said) << each.block;
@@ -104,6 +107,9 @@ TEST(SinumerikBlockWords, ThatOnlyTheRunKnows) {
                                                         {"G1\nSUPA X5 CR=30", "12110"},
                                                         {"SUPA G1 X5 RND=2", "12110"},
                                                         {"G153 G2 X25 Y5 CR=5", "12110"},
+                                                        {"G75 X1=0 A2=5", "12080"},
+                                                        {"G75 B3=0", "12080"},
+                                                        {"G75 X2=0", "12080"},
                                                         {"T1 D1\nDL=7", "17182"},
                                                         {"T1 D1\nDL=-1", "17182"},
                                                         {"T1 D1\nDL=1.5", "17182"}}) {

@@ -270,7 +270,8 @@ void PathMotion::approachFixedPoint(const Command& command, Evaluation& evaluati
     }
     std::string name = addressName(address);
     auto axis = machineAxis(addressOf(name));
-    if (!axis && name.size() > 1) axis = machineAxis(addressOf(name.substr(0, name.size() - 1)));  // X1 is X
+    // The machine axes are called X1, Y1 ...; A2 to C7 would orient the tool.
+    if (!axis && name.size() == 2 && name[1] == '1') axis = machineAxis(addressOf(name.substr(0, 1)));
     if (!axis) throw Alarm("12080", fmt::format("the machine has no axis {}", name));
     target[*axis] = channel.description().toolChange[*axis];
   }

@@ -73,6 +73,7 @@ bool BlockParser::onlyTakes(std::string_view addresses) {
   if (centreCount_ > 0) surplus = "I, J, K";
   if ((move_.feed.present() || move_.rapid || move_.autoFeed) && !takes('F')) surplus = "F";
   if (tool_.spindleSpeed.present() && !takes('S')) surplus = "S";
+  if (tool_.cuttingSpeed.present()) surplus = "S(VC=)";
   if (toolCalled_ && !takes('T')) surplus = "T";
   if (length_.present() && !takes('L')) surplus = "L";
   if (parameterCount_ > 0 && !takes('P')) surplus = "P";

@@ -300,7 +300,8 @@ bool BlockParser::toolWordOrTolerance() {
 
 bool BlockParser::emitTool() {
   const bool oversize = tool_.deltaLength.present() || tool_.deltaRadius.present() || tool_.deltaRadius2.present();
-  if (!toolCalled_ && !tool_.spindleSpeed.present() && !oversize) {
+  const bool speed = tool_.spindleSpeed.present() || tool_.cuttingSpeed.present();
+  if (!toolCalled_ && !speed && !oversize) {
     if (axis_ != 0) emit(Modal{constant(axis_ == 'Z' ? "G17" : axis_ == 'Y' ? "G18" : "G19"), {}});
     return true;
   }

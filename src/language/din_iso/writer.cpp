@@ -217,6 +217,7 @@ private:
       refuse(fmt::format("the tool axis {} has no twin in DIN/ISO", call.axis));
     }
     if (call.spindleSpeed.present()) word(fmt::format("S{}", unsignedValue(call.spindleSpeed)));
+    if (call.cuttingSpeed.present()) word(fmt::format("S(VC={})", unsignedValue(call.cuttingSpeed)));
     if (call.feed.present()) word(fmt::format("F{}", unsignedValue(call.feed)));
     if (call.feed.present() && !tool) refuse("the feed of TOOL CALL has no twin in DIN/ISO without its tool");
     if (call.deltaLength.present()) word(fmt::format("DL{}", value(call.deltaLength)));

@@ -80,10 +80,11 @@ bool BlockParser::listedAxis(Axes axes) {
   if (axis == '\0' || axisLetters.find(axis) == std::string_view::npos) {
     return error("an axis letter is expected here");
   }
+  const std::uint32_t column = lexer_.column();
   lexer_.advance();
   if (axes == Axes::WithValues)
     return word(addressOf({&axis, 1}), {&axis, 1}, incremental ? WordMode::Incremental : WordMode::Plain);
-  addWord(addressOf({&axis, 1}), {});
+  addWord(addressOf({&axis, 1}), {}).column = column;
   return true;
 }
 

@@ -66,6 +66,10 @@ void StatementNotes::look(const Block& block, const CallLabel& call) {
 void StatementNotes::look(const Block&, const CallProgram&) { toolAxis_ = poleAxis_ = 0; }
 
 void StatementNotes::look(const Block&, const ToolCall& call) {
+  if (call.cuttingSpeed.present() && !std::exchange(namedCuttingSpeed_, true)) {
+    note(Severity::Warning, "the cutting speed VC of TOOL CALL is not carried out",
+         "the run continues without it; --strict refuses it; write S with the spindle speed");
+  }
   if (call.axis == 0 || call.axis == toolAxis_) return;
   toolAxis_ = call.axis;
   poleAxis_ = 0;

@@ -54,6 +54,7 @@ private:
   char toolAxis_ = 0, poleAxis_ = 0;
   std::string corner_;   ///< RND or CHF that waits for the element after it
   std::set<int> named_;  ///< M functions that were
+  bool namedCuttingSpeed_ = false;
   std::vector<Note> notes_;
 };
 

@@ -57,12 +57,14 @@ bool BlockParser::toolWord(ToolCall& call) {
     return error(std::string(word).append(" is given twice in this block"), "remove one of the two");
   };
   if (c == 'S') {
-    if (call.spindleSpeed.present()) return twice("the spindle speed");
+    if (call.spindleSpeed.present() || call.cuttingSpeed.present()) return twice("the spindle speed");
     lexer_.advance();
     if (lexer_.accept('(')) {  // S(VC = 120): a cutting speed
-      if (!lexer_.acceptPrefix("VC") || !expect('=', "VC") || !value("VC") || !expect(')', "the cutting speed")) {
+      if (!lexer_.acceptPrefix("VC") || !expect('=', "VC"))
         return diagnostics_.empty() ? error("VC = with a cutting speed is expected in the parentheses after S") : false;
-      }
+      const std::optional<Operand> speed = value("VC");
+      if (!speed || !expect(')', "the cutting speed")) return false;
+      call.cuttingSpeed = *speed;
     } else {
       const std::optional<Operand> speed = value("the spindle speed S");
       if (!speed) return false;

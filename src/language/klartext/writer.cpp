@@ -165,6 +165,7 @@ private:
     }
     if (call.axis != 0) word(std::string_view(&call.axis, 1));
     if (call.spindleSpeed.present()) word(fmt::format("S{}", unsignedValue(call.spindleSpeed)));
+    if (call.cuttingSpeed.present()) word(fmt::format("S(VC={})", unsignedValue(call.cuttingSpeed)));
     if (call.feed.present()) word(fmt::format("F{}", unsignedValue(call.feed)));
     valued("DL", call.deltaLength);
     valued("DR", call.deltaRadius);

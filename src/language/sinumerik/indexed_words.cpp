@@ -98,6 +98,9 @@ void BlockParser::parseSetting(std::string_view name, std::size_t start) {
   cursor_.skipBlanks();
   if (cursor_.peek() != '=')
     return fail(start, std::string(name) + " needs a value", "Write " + std::string(name) + "=value.");
+  if (name == "DL" && index.value.present())
+    return fail(start, "DL takes no index", "Write DL=1: the number of an additive offset of the edge.");
+  if (name == "FA" && !index.value.present()) return fail(start, "FA needs the axis in brackets", "Write FA[X]=value.");
   Word value;
   value.column = static_cast<std::uint32_t>(start) + 1;
   std::array<Word, 2> more;  // POSP[X]=(end,part,mode)
