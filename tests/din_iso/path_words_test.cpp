@@ -74,6 +74,44 @@ TEST(DinIsoPathWords, OfTheBlocksOwnFunction) {
     EXPECT_EQ(checked(each.block), each.said) << each.block;
 }
 
+/// What a function or a cycle cannot do in its block is refused: nothing of it is lost in silence.
+TEST(DinIsoPathWords, BesideFunctionsThatDoNotTakeThem) {
+  struct Case {
+    std::string block, said;
+  };
+  const std::vector<Case> cases = {
+      {"G28 X G41", "G28 takes no G41"},
+      {"G42 G79", "G79 takes no G42"},
+      {"G54 X+5 M91", "G54 takes no M91"},
+      {"G38 M92", "G38 takes no M92"},
+      {"G53 P01 1 DL+1", "G53 takes no DL"},
+      {"G53 P01 1 P02 7", "G53 takes no P02"},
+      {"G55 P01 5 P02 Z- P03 +5 P04 +0 P05 -5 P06 1", "G55 takes no P06"},
+      {"G36 S10 S5", "the spindle angle S is given twice in this block"},
+      {"G99 T5 L+10 L+3", "the tool length L is given twice in this block"},
+      {"G62 T0.05 T5", "the tolerance T is given twice in this block"},
+      {"G25 G43", "G25 takes no G43"},
+      {"G99 T5 L+10 G44", "G99 takes no G44"},
+      {"G24 R2 FU0.1", "G24 takes no FU"},
+      {"G01 X+7 G30", "G30 takes no path function G01"},
+      {"G00 G54 X+7", "G54 takes no path function G00"},
+      {"X+7 G98 L5", "X stands before G98, which takes the rest of the block only"},
+      {"F200 G98 L5", "F stands before G98, which takes the rest of the block only"},
+      {"M3 G200 DRILLING Q200=2", "M stands before G200, which takes the rest of the block only"},
+      {"I+5 G247 Q339=1", "I, J, K stands before G247, which takes the rest of the block only"},
+      {"G01 X+7 G421 HOLE Q273=5", "X stands before G421, which takes the rest of the block only"},
+      {"G200 X+7", "this block defines a cycle and moves no axis"},
+      {"G200 DRILLING I+2 J+3 Q200=2", "this block defines a cycle and moves no axis"},
+      {"G421 HOLE IX-7 Q273=5", "this block defines a cycle and moves no axis"},
+      {"I+0 J+0 M91", "M91 and M92 take axes in straight lines only, not I, J and K"}};
+  for (const Case& each : cases)
+    EXPECT_NE(checked("N40 " + each.block + " *").find(": " + each.said + "; "), std::string::npos)
+        << each.block << ": " << checked("N40 " + each.block + " *");
+  for (const char* block : {"G90 G98 L5", "G28 X", "G54 G91 X+5", "G30 G17 X+0 Y+0 Z-40", "G31 G90 X+100 Y+100 Z+0",
+                            "G25 R2 F100", "G79 M3", "G00 G40 G90 Z-150", "G29 M8"})
+    EXPECT_EQ(checked("N40 " + std::string(block) + " *"), "nothing") << block;
+}
+
 TEST(DinIsoPathWords, OfTheFunctionOfABlockBefore) {
   const std::string mixture = "G11 takes polar coordinates, and this block has X and Y";
   EXPECT_EQ(checked("N40 G11 R+20 H+0 F500 *\nN50 X+5 Y+5 *"), "6:9: " + mixture + "; write G01 for axes of the plane");

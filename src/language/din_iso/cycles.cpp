@@ -59,17 +59,18 @@ const Word* BlockParser::parameter(std::uint32_t number) const {
 }
 
 /// Refuses words that the block's G function does not have. `addresses`: coordinates, and among them F, S, T, L and P
-/// for words of those addresses.
-bool BlockParser::onlyTakes(std::string_view addresses) {
+/// for words of those addresses. `parameters`: the highest number of a parameter P. A tool axis holds from here on.
+bool BlockParser::onlyTakes(std::string_view addresses, std::uint32_t parameters) {
   const auto takes = [&](char address) { return addresses.find(address) != std::string_view::npos; };
-  std::string coordinateName;
-  std::string_view surplus;
+  std::string surplus = surplusOfPath();
   for (std::size_t i = 0; i < coordinateCount_; ++i) {
-    const char address = static_cast<char>(coordinates_[i].address);
-    if (takes(address)) continue;
-    coordinateName = addressName(coordinates_[i].address);
-    surplus = coordinateName;
+    const Word& word = coordinates_[i];
+    const bool ofPath = word.address > 0xff;  // FU and FZ
+    if (!ofPath && takes(static_cast<char>(word.address))) continue;
+    surplus = addressName(word.address);
   }
+  for (std::size_t i = 0; i < parameterCount_; ++i)
+    if ((parameters_[i].address & 0xff) > parameters) surplus = fmt::format("P{:02}", parameters_[i].address & 0xff);
   if (centreCount_ > 0) surplus = "I, J, K";
   if ((move_.feed.present() || move_.rapid || move_.autoFeed) && !takes('F')) surplus = "F";
   if (tool_.spindleSpeed.present() && !takes('S')) surplus = "S";
@@ -77,8 +78,26 @@ bool BlockParser::onlyTakes(std::string_view addresses) {
   if (toolCalled_ && !takes('T')) surplus = "T";
   if (length_.present() && !takes('L')) surplus = "L";
   if (parameterCount_ > 0 && !takes('P')) surplus = "P";
-  if (surplus.empty()) return true;
-  return error(fmt::format("G{} takes no {}", function_, surplus), "write it in a block of its own");
+  if (!surplus.empty())
+    return error(fmt::format("G{} takes no {}", function_, surplus), "write it in a block of its own");
+  if (function_ != 30) emitToolAxis();  // of G30 it is the one of the picture
+  return true;
+}
+
+/// A word that belongs to a path: neither a function nor a cycle would do what it says. Empty if there is none.
+std::string BlockParser::surplusOfPath() const {
+  if (move_.machineCoordinates || move_.machineReference2) return move_.machineCoordinates ? "M91" : "M92";
+  if (compensationFunction_ >= 0) return fmt::format("G{}", compensationFunction_);
+  if (tool_.deltaLength.present()) return "DL";
+  if (tool_.deltaRadius.present()) return "DR";
+  if (tool_.deltaRadius2.present()) return "DR2";
+  // Whether they are the end of the path or belong to the function nobody can tell.
+  const bool path = motion_ && coordinateCount_ > 0 && function_ != 24 && function_ != 25;
+  return path && function_ != 26 && function_ != 27 ? fmt::format("path function G{:02}", path_) : "";
+}
+
+void BlockParser::emitToolAxis() {
+  if (axis_ != 0) emit(Modal{constant(axis_ == 'Z' ? "G17" : axis_ == 'Y' ? "G18" : "G19"), {}});
 }
 
 bool BlockParser::emitWithFunctions(const Instruction& instruction) {
@@ -186,7 +205,7 @@ bool BlockParser::transform(TransformKind kind, std::string_view addresses) {
 }
 
 bool BlockParser::datumFromTable() {
-  if (!onlyTakes("P")) return false;
+  if (!onlyTakes("P", 1)) return false;
   const Word* row = parameter(1);
   if (row == nullptr) return error("the row of the datum table is missing", "write G53 P01 12");
   const std::size_t first = block_.words.size();
@@ -218,7 +237,7 @@ bool BlockParser::tilt() {
 /// of P03 to P05.
 bool BlockParser::referencePlane() {
   namespace probe_word = cycles::heidenhain::probe_word;
-  if (!onlyTakes("XYZABCUVWP")) return false;
+  if (!onlyTakes("XYZABCUVWP", 5)) return false;
   const Word* target = parameter(1);
   if (target == nullptr || !target->value.isLiteral() || probingAxis_ == 0) {
     return error("P01 with the parameter for the result and P02 with the probing axis are needed",
@@ -242,7 +261,7 @@ bool BlockParser::referencePlane() {
 
 /// G62 T0.05 P01 1 P02 5: tolerance, finishing 0 or roughing 1, tolerance of rotary axes.
 bool BlockParser::tolerance() {
-  if (!onlyTakes("LP")) return false;
+  if (!onlyTakes("LP", 2)) return false;
   const std::size_t first = block_.words.size();
   if (length_.present()) addWord(addressOf("T"), length_);
   if (const Word* mode = parameter(1); mode != nullptr && length_.present()) addWord(addressOf("HSC"), mode->value);
@@ -275,8 +294,27 @@ bool BlockParser::blankForm() {
   return emitWithFunctions(Command{constant(nameOf(CommandKind::BlankForm)), constant(text), -1, {}});
 }
 
+/// G98 and cycles take the rest of their block; words before them would be lost.
+bool BlockParser::nothingBefore() {
+  std::string before = surplusOfPath();
+  if (centreCount_ > 0) before = "I, J, K";
+  if (coordinateCount_ > 0) before = addressName(coordinates_[0].address);
+  if (feedGiven_) before = "F";
+  if (tool_.spindleSpeed.present() || tool_.cuttingSpeed.present()) before = "S";
+  if (toolCalled_) before = "T";
+  if (length_.present()) before = "L";
+  if (parameterCount_ > 0) before = "P";
+  if (pendingCount_ > 0) before = "M";
+  if (!before.empty())
+    return error(fmt::format("{} stands before G{}, which takes the rest of the block only", before, function_),
+                 "write it in a block of its own");
+  emitToolAxis();
+  return true;
+}
+
 /// Gnnn NAME Q200=... up to the end of the block.
 bool BlockParser::measuringOrMachining(int number) {
+  if (!nothingBefore()) return false;
   return parameterCycle(isTouchProbeCycle(number) ? "TCH PROBE" : "CYCL DEF", number);
 }
 

@@ -51,6 +51,7 @@ private:
   bool parameterWord();
   bool referencePlaneWord(int parameter);
   bool spindleOrClearance();
+  bool valueOnce(Operand& operand, std::string_view what);
   bool toolWordOrTolerance();
   bool emitWords();
   bool emitPath();
@@ -58,7 +59,10 @@ private:
 
   // cycles.cpp: G functions that are cycles, transformations or settings in Klartext
   bool emitFunction();
-  bool onlyTakes(std::string_view addresses);
+  bool onlyTakes(std::string_view addresses, std::uint32_t parameters = 99);
+  std::string surplusOfPath() const;
+  bool nothingBefore();
+  void emitToolAxis();
   const Word* find(std::string_view address) const;
   const Word* parameter(std::uint32_t number) const;
   bool emitWithFunctions(const Instruction& instruction);

@@ -78,9 +78,7 @@ bool BlockParser::wordOf(char address) {
       return toolWord(tool_);
     case 'L': {
       lexer_.advance();
-      const std::optional<Operand> length = value("the tool length L");
-      if (length) length_ = *length;
-      return length.has_value();
+      return valueOnce(length_, "the tool length L");
     }
     case 'P':
       return parameterWord();
@@ -189,7 +187,7 @@ bool BlockParser::takeFunction(int number) {
                  "write a block for each of them");
   }
   function_ = number;
-  if (number == 98) return labelDefinition();
+  if (number == 98) return nothingBefore() && labelDefinition();
   if (number == 247) return measuringOrMachining(number);
   if (number == 39) {
     parameterAddress(1);
@@ -279,18 +277,20 @@ bool BlockParser::referencePlaneWord(int parameter) {
 bool BlockParser::spindleOrClearance() {
   if (function_ != 80 && function_ != 36) return toolWord(tool_);
   lexer_.advance();
-  const std::optional<Operand> found = value(function_ == 80 ? "the set-up clearance S" : "the spindle angle S");
-  if (found) tool_.spindleSpeed = *found;
+  return valueOnce(tool_.spindleSpeed, function_ == 80 ? "the set-up clearance S" : "the spindle angle S");
+}
+
+/// Reads a value into `operand`, which must not have one yet.
+bool BlockParser::valueOnce(Operand& operand, std::string_view what) {
+  if (operand.present()) return error(fmt::format("{} is given twice in this block", what), "remove one of the two");
+  const std::optional<Operand> found = value(what);
+  if (found) operand = *found;
   return found.has_value();
 }
 
 bool BlockParser::toolWordOrTolerance() {
   lexer_.advance();
-  if (function_ == 62) {
-    const std::optional<Operand> found = value("the tolerance T");
-    if (found) length_ = *found;
-    return found.has_value();
-  }
+  if (function_ == 62) return valueOnce(length_, "the tolerance T");
   if (toolCalled_) return error("a block calls one tool only");
   toolCalled_ = true;
   if (!toolIdentity(tool_)) return false;
@@ -302,7 +302,7 @@ bool BlockParser::emitTool() {
   const bool oversize = tool_.deltaLength.present() || tool_.deltaRadius.present() || tool_.deltaRadius2.present();
   const bool speed = tool_.spindleSpeed.present() || tool_.cuttingSpeed.present();
   if (!toolCalled_ && !speed && !oversize) {
-    if (axis_ != 0) emit(Modal{constant(axis_ == 'Z' ? "G17" : axis_ == 'Y' ? "G18" : "G19"), {}});
+    emitToolAxis();
     return true;
   }
   tool_.axis = axis_;
@@ -317,6 +317,10 @@ bool BlockParser::emitTool() {
 
 bool BlockParser::emitPath() {
   if (centreCount_ > 0) {
+    if (move_.machineCoordinates || move_.machineReference2) {
+      return errorAt(centre_[0], "M91 and M92 take axes in straight lines only, not I, J and K",
+                     "write the centre in the coordinates of the workpiece, in a block of its own");
+    }
     Move centre;
     centre.kind = MoveKind::SetCentre;
     const std::size_t first = block_.words.size();

@@ -29,13 +29,22 @@ bool parameterBegins(const Lexer& lexer) {
 
 }  // namespace
 
-void BlockParser::skipCycleName() {
+bool BlockParser::skipCycleName() {
+  const auto coordinateAt = [this](std::size_t at) {
+    const char axis = upper(lexer_.here(at)), sign = lexer_.here(at + 1);
+    const bool named = axis != '\0' && std::string_view("XYZABCUVWIJKRH").find(axis) != std::string_view::npos;
+    return named && (sign == '+' || sign == '-') && isDigit(lexer_.here(at + 2));
+  };
+  const auto axisBegins = [&] { return coordinateAt(0) || (upper(lexer_.here()) == 'I' && coordinateAt(1)); };
   bool behindBlank = true;
   for (char c = lexer_.here(); c != '\0' && c != '\n' && c != ';'; c = lexer_.here()) {
-    if (behindBlank && parameterBegins(lexer_)) return;
+    if (behindBlank && parameterBegins(lexer_)) return true;
+    if (behindBlank && axisBegins())
+      return error("this block defines a cycle and moves no axis", "write the position in a block of its own");
     behindBlank = isBlankOrReturn(c);
     lexer_.advance();
   }
+  return true;
 }
 
 bool BlockParser::touchProbe() {
@@ -75,8 +84,7 @@ bool BlockParser::parameterCycle(std::string_view kind, int number) {
   }
   const std::size_t first = block_.words.size();
   if (kind == "GLOBAL DEF") addWord(0, Operand::of(number));
-  skipCycleName();
-  if (!cycleParameters(first)) return false;
+  if (!skipCycleName() || !cycleParameters(first)) return false;
   const WordRange words = wordsSince(first);
   if (kind == "GLOBAL DEF") {
     emit(Command{constant(nameOf(CommandKind::GlobalDefinition)), {}, -1, words});

@@ -137,7 +137,7 @@ protected:
   bool parameterCycle(std::string_view kind, int number);
   bool cycleParameters(std::size_t firstWord);
   bool cycleParameter();
-  void skipCycleName();
+  bool skipCycleName();
 
   // old_cycles.cpp
   struct Part {
