@@ -3,7 +3,9 @@
 #include <xlsxwriter.h>
 
 #include <array>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 
@@ -150,7 +152,10 @@ Result<std::string> xlsxFile(const Inspection& inspection) {
   Sheet sheet(book);
   sheet.rows(inspection);
   sheet.run(inspection);
-  if (const lxw_error error = workbook_close(book); error != LXW_NO_ERROR) return failed(lxw_strerror(error));
+  errno = 0;
+  const lxw_error error = workbook_close(book);
+  // Of a file that it cannot write the library only says that permissions are the usual reason.
+  if (error != LXW_NO_ERROR) return failed(errno != 0 ? std::strerror(errno) : lxw_strerror(error));
   return readFile(file);
 }
 
