@@ -211,7 +211,7 @@ int study(const StudyArguments& given) {
   fs::create_directories(arguments.out, error);
   if (first && !arguments.resume) {
     removeStudyState(arguments.out);
-    fs::remove(trialFile, error);
+    if (sums) fs::remove(trialFile, error);  // else the first trials replace those of an earlier study
   }
   std::vector<std::string> names;
   for (const study::Source& source : plan->sources)
@@ -238,13 +238,14 @@ int study(const StudyArguments& given) {
     notKept = kept.error();
     diskFull.request_stop();
   };
-  bool goesOn = earlier.has_value();
+  bool goesOn = earlier.has_value(), trialsBegun = false;
   if (!sums)
     run.keep = [&](std::span<const study::Draw> draws, std::span<const study::Outcome> outcomes) {
       if (!first || notKept) return;
       if (goesOn) keptOrStop(writer.goOn(*earlier));
       goesOn = false;
       if (!notKept) keptOrStop(writer.write(draws, outcomes));
+      trialsBegun = true;
     };
   if (sums) {
     const study::Ranks ranks = *joined ? (*joined)->ranks : alone();
@@ -260,7 +261,8 @@ int study(const StudyArguments& given) {
       *plan, setupTable, [&](const study::Draw& draw) { return model->run(draw); }, run);
   if (!arguments.quiet) progress.clear();
   print(result.diagnostics);
-  if (first && keptTrials && !notKept) {
+  const bool stale = !trialsBegun && !earlier;  // interrupted before the first trial: the file is of another study
+  if (first && keptTrials && !notKept && !stale) {
     auto trials = study::TrialReader::open(trialFile, mark);
     keptOrStop(trials ? keptTrials->write(*std::move(trials), mark) : tl::unexpected(trials.error()));
   }

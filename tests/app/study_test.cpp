@@ -127,6 +127,32 @@ TEST(StudyCommand, SharesTrialsAmongRanksOfMpi) {
   EXPECT_FALSE(std::filesystem::exists(folder / "two/trials.csv"));
 }
 
+/// What a study cannot write leaves the study before it whole.
+TEST(StudyCommand, LeavesAllFilesOfTheStudyBeforeIfItsOwnDoNotFit) {
+  const Folder folder;
+  const std::string program = folder.file("p.h", blockProgram()), setup = folder.file("s.toml", blockSetup());
+  const std::string file = folder.file("t.toml", study), out = (folder / "out").string();
+  ASSERT_EQ(
+      probewright({"study", program, "--setup", setup, "--study", file, "--out", out, "--trials", "30", "--quiet"})
+          .exit,
+      0);
+  const auto files = [&] {
+    std::string all;
+    for (const std::string& name : namesIn(folder / "out"))
+      all += name + "\n" + textOf(folder / ("out/" + name));
+    return all;
+  };
+  const std::string before = files();
+  const std::string said = (folder / "said").string();
+  // No file larger than a block: the signal is ignored, so that the write fails.
+  const std::string command = "(ulimit -f 1; trap '' XFSZ; exec " PROBEWRIGHT_PROGRAM " study " + program +
+                              " --setup " + setup + " --study " + file + " --out " + out +
+                              " --trials 40 --quiet; ) 2>&1 | cat >" + said;
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  EXPECT_THAT(textOf(said), ::testing::HasSubstr("trials.csv: error: cannot write this file"));
+  EXPECT_EQ(files(), before);
+}
+
 TEST(StudyCommand, NeverReplacesWhatIsNotOfAStudy) {
   const Folder folder;
   std::filesystem::create_directory(folder / "out");
