@@ -112,6 +112,30 @@ TEST(DinIsoPathWords, BesideFunctionsThatDoNotTakeThem) {
     EXPECT_EQ(checked("N40 " + std::string(block) + " *"), "nothing") << block;
 }
 
+/// M94, M116 and M138 name axes; an axis with a value behind them is moved.
+TEST(DinIsoPathWords, BehindFunctionsThatNameAxes) {
+  const auto moves = [](const std::string& block) {
+    DinIsoProgram program("a.i", programOf("N40 " + block + " *"));
+    Block read;
+    Diagnostics mistakes;
+    bool any = false;
+    for (BlockPosition at = program.begin(); program.parse(at, read, mistakes); at = read.next) {
+      any = false;
+      for (const Instruction& instruction : read.instructions) {
+        const auto* move = std::get_if<Move>(&instruction);
+        any = any || (move != nullptr && move->words.count > 0);
+      }
+      if (at.line == 5) break;
+    }
+    EXPECT_TRUE(mistakes.empty()) << block;
+    return any;
+  };
+  for (const char* block : {"M94 X+7", "M116 C+5", "G01 M94 G91 X+7", "M138 A B C+10", "M94 CQ1"})
+    EXPECT_TRUE(moves(block)) << block;
+  for (const char* block : {"M94", "M94 C", "M138 A B", "M118 X1 Y1"})
+    EXPECT_FALSE(moves(block)) << block;
+}
+
 TEST(DinIsoPathWords, OfTheFunctionOfABlockBefore) {
   const std::string mixture = "G11 takes polar coordinates, and this block has X and Y";
   EXPECT_EQ(checked("N40 G11 R+20 H+0 F500 *\nN50 X+5 Y+5 *"), "6:9: " + mixture + "; write G01 for axes of the plane");

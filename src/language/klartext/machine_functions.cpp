@@ -81,9 +81,14 @@ bool BlockParser::machineFunction(Move* move) {
     const char letter = upper(incremental ? lexer_.here(1) : lexer_.peek());
     if (std::string_view("XYZABCUVW").find(letter) == std::string_view::npos || letter == '\0') break;
     const std::uint32_t column = lexer_.column();
+    const std::size_t begin = lexer_.offset();
     lexer_.advance(incremental ? 2 : 1);
     const char next = lexer_.peek();
     const bool valued = next == '+' || next == '-' || isDigit(next) || next == '.' || next == 'Q';
+    if (valued && number != 118) {  // the others name axes: this is where the block moves to
+      lexer_.seek(begin);
+      break;
+    }
     if (!valued) {
       addWord(addressOf({&letter, 1}), {});
       block_.words.back().column = column;
