@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 
 #include "klartext/expectations.hpp"
 #include "klartext/host_world.hpp"
@@ -200,6 +201,13 @@ TEST(MFunctions, M19AndM20OrientTheSpindleToTheAngleOfCycle13) {
   EXPECT_EQ(world.run("Q1 = -1\nCYCL DEF 13.0 ORIENTATION\nCYCL DEF 13.1 ANGLE Q1\n").end, RunEnd::Alarm);
   const RunResult beyond = world.run("Q1 = 361\nCYCL DEF 13.0 ORIENTATION\nCYCL DEF 13.1 ANGLE Q1\n");
   EXPECT_EQ(beyond.end, RunEnd::Alarm);
+  // The manual's range is 0 to 360 degrees, with both of its ends.
+  for (const int end : {0, 360}) {
+    World turned;
+    expectFinished(turned.run("TOOL CALL 1 Z\nQ1 = " + std::to_string(end) +
+                              "\nCYCL DEF 13.0 ORIENTATION\nCYCL DEF 13.1 ANGLE Q1\nM19\n"));
+    EXPECT_EQ(std::fmod(turned.control->channel.spindleAngle(), 360), 0) << end;
+  }
 }
 
 TEST(MFunctions, WhatIsNotCarriedOutIsNamedOnce) {

@@ -106,6 +106,17 @@ MAX_ACCELERATION = 700
   EXPECT_LT((nose - Vector3(10, 20, -30)).norm(), 1e-12);
 }
 
+/// A file may hold the key with nothing set; a machine that cannot move is none.
+TEST_F(Configuration, ASpeedOfThePathThatIsZeroLimitsNoAxis) {
+  const auto machine = read(
+      "[KINS]\nKINEMATICS = trivkins coordinates=XYZ\nJOINTS = 3\n[TRAJ]\nCOORDINATES = X Y Z\n"
+      "LINEAR_UNITS = mm\nMAX_LINEAR_VELOCITY = 0\n" +
+      joints(3));
+  ASSERT_TRUE(machine) << said();
+  for (const Axis& axis : machine->axes)
+    EXPECT_EQ(axis.rapid, 100 * 60) << axis.name << ": the speed of its joint";
+}
+
 TEST_F(Configuration, CountsInItsOwnUnits) {
   const auto machine = read(
       "[KINS]\nKINEMATICS = trivkins coordinates=XYZ\n[TRAJ]\nLINEAR_UNITS = inch\nCOORDINATES = XYZ\n" + joints(3));

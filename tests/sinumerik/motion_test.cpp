@@ -219,6 +219,8 @@ TEST(SinumerikMotion, ArcsStayOnTheirCircle) {
       {"G3 X-10 Y0 AR=180", {0, 0, 0}, {-10, 0, 0}, 10, 180},
       {"G3 X0 Y10 Z6 I-10 J0 TURN=1", {0, 0, 0}, {0, 10, 6}, 10, 450},
       {"CIP X-10 Y0 I1=0 J1=10 K1=0", {0, 0, 0}, {-10, 0, 0}, 10, 180},
+      {"G111 X0 Y0\nG3 AP=90 RP=10", {0, 0, 0}, {0, 10, 0}, 10, 90},
+      {"G111 X10 Y5\nG2 AP=0 RP=5", {10, 5, 0}, {15, 5, 0}, 5, -270},
   };
   for (const Case& c : cases) {
     World world;
@@ -283,6 +285,13 @@ TEST(SinumerikMotion, ToolRadiusCompensationKeepsTheDistance) {
   round.run("T1 M6\nG0 X40 Y0\nF500\nG42 G1 X20 Y0\nG3 X20 Y0 I-20 J0\nG40 G1 X40 Y0\n");
   for (std::size_t i = 1; i + 1 < round.machine.moves.size(); ++i)
     EXPECT_NEAR(tipOf(round, i).head<2>().norm(), 25, 1e-9);
+  // What the machine does by an M function of its builder waits for the way that compensation still holds back.
+  World builder;
+  builder.machine.has.push_back(100);
+  builder.run("T1 M6\nG0 X-20 Y-20\nF500\nG41 G1 X0 Y0\nY40\nM100\nX40\nG40 X60 Y60\n");
+  ASSERT_EQ(builder.machine.functions, std::vector<int>{100});
+  ASSERT_GE(builder.machine.movesBefore[0], 3U);
+  EXPECT_NEAR(tipOf(builder, builder.machine.movesBefore[0] - 1).y(), 40, 1e-9) << "at the end of the block before it";
   World tight, equal;
   EXPECT_EQ(tight.alarm("T1 M6\nG0 X0 Y0\nF500\nG41 G1 X3 Y0\nG3 X3 Y0 I-3 J0\nG40 G1 X0 Y0\n"), "10753");
   EXPECT_EQ(equal.alarm("T1 M6\nG0 X0 Y0\nF500\nG41 G1 X5 Y0\nG3 X5 Y0 I-5 J0\nG40 G1 X0 Y0\n"), "10753")

@@ -30,6 +30,7 @@ public:
     machine::Feed feed;
   };
   std::vector<Move> moves;
+  std::vector<std::size_t> movesBefore;  ///< each M function that was carried out
   /// The probe signals where axis `wallAxis` reaches this reading.
   std::size_t wallAxis = 0;
   std::optional<double> wall;
@@ -38,6 +39,10 @@ public:
     at_ = target;
     moves.push_back({target, feed});
     return {};
+  }
+  machine::FunctionResult function(int number) override {
+    movesBefore.push_back(moves.size());
+    return WillingMachine::function(number);
   }
   machine::MeasureResult measure(const machine::MeasureOrder& order) override {
     const double from = at_[wallAxis], to = order.target[wallAxis];

@@ -81,6 +81,14 @@ TEST(Summary, TakesTheIntervalsOfJcgm101) {
   EXPECT_EQ(summary.shortest->high, 96);
   EXPECT_EQ(summary.mean, 50.5);
   EXPECT_NEAR(summary.deviation, std::sqrt(100 * 101 / 12.0), 1e-9);
+  // The fewest values that have one: of 81 .. 100 q = 19, r = 1; y(1) and y(20). Of 9 values q = 9: none.
+  values.resize(20);
+  const Summary few = summarize(values, 0.95);
+  ASSERT_TRUE(few.symmetric);
+  EXPECT_EQ(few.symmetric->low, 81);
+  EXPECT_EQ(few.symmetric->high, 100);
+  values.resize(9);
+  EXPECT_FALSE(summarize(values, 0.95).symmetric);
 }
 
 TEST(Summary, LeavesOutWhatIsMissing) {
