@@ -59,6 +59,26 @@ TEST(Cycle998, TurnsTheWorkpieceSystemAlongTheEdge) {
   }
 }
 
+/// The zero offset is turned by as much as the part, but the other way.
+TEST(Cycle998, ReplacesARotationByItsOpposite) {
+  simulation::Truth truth = perfectWorld();
+  const Vector3 origin(10, -5, table);
+  place(truth, simulation::Box({0, -100, -80}, {200, 200, 0}), translation(origin) * rotation(Vector3::UnitZ(), 2.5));
+  SinumerikBench bench(truth);
+  plantFrame(bench, "$P_UIFR", 1, origin, {0, 0, -2.5});
+  bench.start({-10, -40, -20});
+  bench.run("CYCLE998", {{"S_MVAR", 100105},
+                         {"S_KNUM", 9000},
+                         {"S_STA1", 0},
+                         {"S_FA", 9},
+                         {"S_TSA", 12},
+                         {"S_MA", 201},
+                         {"S_MD", 1},
+                         {"S_ID", 50}});
+  EXPECT_NEAR(bench.ovr(4), 5, 1e-9);
+  EXPECT_NEAR(bench.data("$P_UIFR", {1, "Z", "RT"}), 2.5, 1e-9);
+}
+
 TEST(Cycle998, ShiftsTheRotaryTableInstead) {
   for (const double angle : {7.25, -3.5}) {
     simulation::Truth truth = perfectWorld("mill5-head-table");
