@@ -149,6 +149,7 @@ TEST(Cycle961, KnowsTheFourPositionsOfACorner) {
                            {"S_TSA", 5}});
     EXPECT_NEAR(bench.ovr(4), 1.5, 1e-9) << corner;
     expectAligned(bench, {{}, part, 1.5}, {0, 0});
+    EXPECT_EQ(bench.control.journal.cycles.back().fits.size(), 1U) << "the edge with two points; the other has one";
   }
 }
 

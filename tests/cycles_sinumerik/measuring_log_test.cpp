@@ -101,6 +101,24 @@ TEST(ResultScreen, ComesAsTheSettingDataSays) {
   EXPECT_EQ(stops(), 2);
 }
 
+/// CYCLE150 decides instead of the setting data: S_PICT 0 is off, the tens say how.
+TEST(ResultScreen, IsTurnedOnAndOffByCycle150) {
+  const struct {
+    double setting, picture;
+    bool shown, waits;
+  } cases[] = {{1, 0, false, false}, {0, 1, true, false}, {3, 11, true, false}, {0, 31, true, true}};
+  for (const auto& each : cases) {
+    SCOPED_TRACE(each.picture);
+    HoleBench bench;
+    bench.set("$SCS_MEA_RESULT_DISPLAY", {}, each.setting);
+    bench.run("CYCLE150", {{"S_PICT", each.picture}});
+    measure(bench);
+    EXPECT_EQ(bench.screen() != "", each.shown);
+    const auto isStop = [](const control::EventRecord& event) { return event.kind == control::EventKind::Stop; };
+    EXPECT_EQ(std::ranges::any_of(bench.control.journal.events, isStop), each.waits);
+  }
+}
+
 TEST(ResultScreen, NamesWhatWasCorrected) {
   HoleBench bench;
   bench.control.panel.showAllResults = true;

@@ -5,8 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <map>
+#include <utility>
+#include <vector>
 
 #include "records/sample_run.hpp"
+#include "reports/truth_summary.hpp"
 
 namespace probewright::reports {
 namespace {
@@ -163,6 +167,30 @@ TEST(Summary, SurvivesAnEmptyRunAndNumbersThatAreNone) {
   journal.cycles.emplace_back();
   journal.cycles[0].results = {sample::plain("Q1", "", std::numeric_limits<double>::quiet_NaN())};
   EXPECT_THAT(summaryText(journal, {}), HasSubstr("not a number"));
+}
+
+/// A table's numbers in the order of the table, up to eight; of more the eight that are wrong most.
+TEST(TruthSummary, NamesEightNumbersOfAnEntry) {
+  const TruthStyle style{.line = [](const std::string& text) { return text; }, .place = {}};
+  const auto namesOf = [&](int count) {
+    records::EntryTruth entry;
+    entry.name = "axis C";
+    entry.distance = 0.1;
+    for (int i = 1; i <= count; ++i)
+      entry.values.push_back({fmt::format("P{}", i), "mm", 10, 10 + 0.01 * i});
+    records::Truth truth;
+    truth.entries.push_back(entry);
+    const std::string text = entriesText(truth, style);
+    std::map<std::size_t, int> places;
+    for (int i = 1; i <= count; ++i)
+      if (const std::size_t at = text.find(fmt::format("P{} ", i)); at != std::string::npos) places[at] = i;
+    std::vector<int> names;
+    for (const auto& [at, name] : places)
+      names.push_back(name);
+    return std::pair(names, text.find("...") != std::string::npos);
+  };
+  EXPECT_EQ(namesOf(8), std::pair(std::vector<int>{1, 2, 3, 4, 5, 6, 7, 8}, false));
+  EXPECT_EQ(namesOf(9), std::pair(std::vector<int>{9, 8, 7, 6, 5, 4, 3, 2}, true));
 }
 
 }  // namespace

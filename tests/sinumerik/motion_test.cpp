@@ -37,6 +37,11 @@ TEST(SinumerikMotion, StraightLinesInEveryWayOfWriting) {
   EXPECT_LT((lastTip(world) - Vector3(10, 15, 25)).norm(), 1e-12);
   world.run("AP=IC(90)\n");
   EXPECT_LT((lastTip(world) - Vector3(5, 10, 25)).norm(), 1e-12);
+  world.run("FA[X]=600\nPOS[X]=6\n");
+  EXPECT_EQ(world.machine.moves.back().feed.perMinute, 600);
+  EXPECT_FALSE(world.machine.moves.back().feed.rapid);
+  world.run("FA[X]=0\nPOS[X]=5\n");
+  EXPECT_TRUE(world.machine.moves.back().feed.rapid) << "no feed of its own again";
   world.run("DEF AXIS AXV=(Y)\nAX[AXV]=3\nPOS[Z]=1\n");
   EXPECT_LT((lastTip(world) - Vector3(5, 3, 1)).norm(), 1e-12);
 }
@@ -94,6 +99,17 @@ TEST(SinumerikMotion, TheEdgeMayStandInFrontOfTheChange) {
   EXPECT_EQ(world.alarm("T1 D9\nM6\n"), "17180");
 }
 
+/// By number and by name, also where these are computed.
+TEST(SinumerikMotion, ToolsAreCalledByWhatIsComputed) {
+  World world;
+  world.run("R1=1\nT=R1 M6\n");
+  EXPECT_EQ(world.control.tool.number, 1);
+  world.run("T=R1+1 M6\n");
+  EXPECT_EQ(world.control.tool.number, 2);
+  world.run("DEF STRING[8] FIRST_1=\"MI\"\nT=FIRST_1<<\"LL\" M6\n");
+  EXPECT_EQ(world.control.tool.number, 1);
+}
+
 TEST(SinumerikMotion, DiametersAndRadiiByTheWordItself) {
   World world("lathe2c");
   const auto radius = [&world] { return world.control.channel.position().x(); };
@@ -131,6 +147,12 @@ TEST(SinumerikMotion, FunctionsAreChosenByTheirPlaceInTheGroup) {
   EXPECT_EQ(world.machine.moves.back().feed.perMinute, 100);
   world.run("G[8]=1\nG0 X1\n");
   EXPECT_EQ(world.machine.moves.back().to[0], 1);
+  for (const int number : {1, 2, 3, 4}) {  // DIAMOF, DIAMON, DIAM90, DIAMCYCOF
+    world.run(fmt::format("G[29]={}\nR7=$P_GG[29]\n", number));
+    EXPECT_EQ(world.r(7), number);
+  }
+  EXPECT_EQ(world.alarm("G[29]=0\n"), "12470");
+  EXPECT_EQ(world.alarm("G[29]=5\n"), "12470");
   EXPECT_EQ(world.alarm("G[6]=4\n"), "12470");
   EXPECT_EQ(world.alarm("G[99]=1\n"), "12470");
 }
