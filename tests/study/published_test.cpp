@@ -230,6 +230,12 @@ TEST(GaugeRR, GivesThePublishedTable) {
   EXPECT_NEAR(study->appraiser.sumOfSquares, 3.1673, 5e-4);
   EXPECT_NEAR(study->interaction.sumOfSquares, 0.3590, 5e-4);
   EXPECT_NEAR(study->repeat.sumOfSquares, 2.7589, 5e-4);
+  EXPECT_NEAR(study->total.sumOfSquares, 94.6471, 5e-4);
+  EXPECT_EQ(study->part.degreesOfFreedom, 9);
+  EXPECT_EQ(study->appraiser.degreesOfFreedom, 2);
+  EXPECT_EQ(study->interaction.degreesOfFreedom, 18);
+  EXPECT_EQ(study->repeat.degreesOfFreedom, 60);
+  EXPECT_EQ(study->total.degreesOfFreedom, 89);
   EXPECT_TRUE(study->pooled);
   EXPECT_NEAR(study->repeatability, 0.199933, 5e-5);
   EXPECT_NEAR(study->reproducibility, 0.226838, 5e-5);
