@@ -245,5 +245,19 @@ TEST(GaugeRR, GivesThePublishedTable) {
   EXPECT_EQ(study->distinctCategories, 4);
 }
 
+/// Two appraisers who differ by part: cells of 0, 2, 2 and 0, each repeated 0.1 above and below. MS of the interaction
+/// is 2 * 4 * 1 / 1, of the repetitions 8 * 0.01 / 4; the interaction's variance is (8 - 0.02) / 2.
+TEST(GaugeRR, CountsTheInteractionToTheAppraisers) {
+  std::vector<double> values;
+  for (const double cell : {0.0, 2.0, 2.0, 0.0})
+    for (const double apart : {-0.1, 0.1})
+      values.push_back(cell + apart);
+  const auto study = gaugeRR(values, 2, 2, 2, std::nullopt);
+  ASSERT_TRUE(study);
+  EXPECT_FALSE(study->pooled);
+  EXPECT_NEAR(study->repeatability, std::sqrt(0.02), 1e-12);
+  EXPECT_NEAR(study->reproducibility, std::sqrt(3.99), 1e-12);
+}
+
 }  // namespace
 }  // namespace probewright::study::testing
