@@ -39,10 +39,12 @@ public:
       case Feature::Rib:
       case Feature::Pocket:
       case Feature::RectangularSpigot:
+        requireSizes();
         cycle977();
         break;
       case Feature::HoleSegment:
       case Feature::SpigotSegment:
+        requireSizes();
         cycle979();
         break;
       case Feature::Surface:
@@ -90,6 +92,14 @@ private:
     if (!reach.isNumber()) return mostSafeAngle;
     const double angle = std::ceil(std::atan2(reach.number(), distance) * 180 / std::numbers::pi);
     return std::clamp(angle, leastSafeAngle, mostSafeAngle);
+  }
+
+  /// CYCLE977 and CYCLE979 refuse a set value of 0; touch probe cycles take it.
+  void requireSizes() const {
+    const std::size_t sizes = isRectangular(task_.feature) ? 2 : 1;
+    for (std::size_t i = 0; i < sizes; ++i)
+      if (task_.size[i].isNumber() && task_.size[i].number() <= 0)
+        throw NotCarriedOver("the nominal size is 0, which no SINUMERIK cycle takes", "write the nominal size there");
   }
 
   void set(const std::string& name, const Quantity& value) { passage_.call.numbers[name] = value; }

@@ -329,6 +329,15 @@ TEST(ConvertPromises, NamesWhatItDrops) {
   EXPECT_THAT(fine.text, HasSubstr("; S_KNUM: THE FINE OFFSET"));
 }
 
+/// Nothing is written that the check of the other control refuses.
+TEST(ConvertPromises, NamesFeaturesWithoutASize) {
+  for (const double nominal : {0.0, 30.0}) {
+    const conversion::Conversion there = toSinumerik(klartextProgram(inspectHole(nominal, 0, 0)));
+    EXPECT_EQ(there.notCarriedOver.empty(), nominal > 0) << there.text;
+    EXPECT_EQ(there.text.find("\nCYCLE977(") == std::string::npos, nominal == 0) << there.text;
+  }
+}
+
 /// REP 0 of a HEIDENHAIN control calls a subprogram, P=0 of a SINUMERIK repeats nothing.
 TEST(ConvertPromises, RepeatsNothingNoTimes) {
   const PlantedPart part = plainTable();
