@@ -162,6 +162,15 @@ TEST(SinumerikCalls, AMistakeInDefIsSaidOnce) {
             (std::vector<std::string>{"1:19 H cannot name a variable: names begin with two letters or underscores"}));
 }
 
+TEST(SinumerikCalls, LabelsAreTheSameInSmallLetters) {
+  World world;
+  world.run("R1=0\nGOTOF maze_az\nR1=1\nMAZE_AZ: R2=2\n");
+  EXPECT_EQ(world.r(1), 0);
+  EXPECT_EQ(world.r(2), 2);
+  world.run("GOTOF MAZE_AZ\nR2=1\nmaze_az: R2=3\n");
+  EXPECT_EQ(world.r(2), 3);
+}
+
 TEST(SinumerikCalls, EncryptedProgramsAreNamed) {
   const std::filesystem::path path = std::filesystem::path(::testing::TempDir()) / "SECRET.CPF";
   std::ofstream(path, std::ios::binary) << std::string("Header\0\1\2\3\xfe\xff", 12);
