@@ -2,18 +2,23 @@
 
 #include <BRep_Tool.hxx>
 #include <GeomAdaptor_Curve.hxx>
+#include <GeomAdaptor_Surface.hxx>
 #include <Geom_Line.hxx>
+#include <Geom_OffsetSurface.hxx>
 #include <Poly_Triangulation.hxx>
 #include <TColStd_Array1OfReal.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <optional>
 
 #include "simulation/border_sides.hpp"
 #include "simulation/cad_vectors.hpp"
 #include "simulation/face_grid.hpp"
+#include "simulation/mesh_limits.hpp"
 
 namespace probewright::simulation {
 namespace {
@@ -56,6 +61,7 @@ double areaInParameters(const CadElement& element) {
 std::vector<CadElement> gridElements(const CadFace& exact, std::uint32_t owner, double deflection) {
   std::vector<CadElement> elements;
   const FaceGrid grid(exact, deflection);
+  const GeomAdaptor_Surface surface(exact.surface);
   for (const FaceGrid::Parameters& cell : grid.triangles()) {
     CadElement element;
     element.owner = owner;
@@ -64,7 +70,7 @@ std::vector<CadElement> gridElements(const CadFace& exact, std::uint32_t owner, 
       element.corners[k] = vector(exact.surface->Value(element.parameters[k].x(), element.parameters[k].y()));
     }
     element.onFace = exact.domain.contains((cell[0] + cell[1] + cell[2]) / 3);
-    element.growth = kLeastGrowth + 1.5 * deviationOf(element, *exact.surface);
+    element.growth = kLeastGrowth + 1.5 * deviationOf(element, surface);
     elements.push_back(element);
   }
   return elements;
@@ -115,24 +121,112 @@ void addParts(const std::array<Corner, 3>& corners, const std::array<Side, 3>& s
   add(ab, bc, ca);
 }
 
+template <class Surface>
+double deviationAt(const CadElement& element, const Surface& surface, double a, double b) {
+  const double c = 1 - a - b;
+  const Vector2 uv = a * element.parameters[0] + b * element.parameters[1] + c * element.parameters[2];
+  const Vector3 chord = a * element.corners[0] + b * element.corners[1] + c * element.corners[2];
+  return (vector(surface.Value(uv.x(), uv.y())) - chord).norm();
+}
+
+template <class Surface>
+double sampledDeviation(const CadElement& element, const Surface& surface) {
+  constexpr double half = 1.0 / 2, third = 1.0 / 3, sixth = 1.0 / 6;
+  constexpr std::array<std::array<double, 2>, 7> places{
+      {{half, half}, {0, half}, {half, 0}, {third, third}, {4 * sixth, sixth}, {sixth, 4 * sixth}, {sixth, sixth}}};
+  double deviation = 0;
+  for (const auto& [a, b] : places)
+    deviation = std::max(deviation, deviationAt(element, surface, a, b));
+  return deviation;
+}
+
+/// How far a free-form face leaves its triangles, sampled so that no wave of it remains unseen.
+class Deviations {
+public:
+  Deviations(const CadFace& face, const Adaptor3d_Surface& surface)
+      : face_(face),
+        surface_(surface),
+        free_(face.forms.count == 0),
+        knotsU_(knotsOf(face, true)),
+        knotsV_(knotsOf(face, false)) {}
+
+  double of(const CadElement& element) const {
+    // Between many knots the adaptor is slower than the surface.
+    if (!free_ || !isShort(knotsU_) || !isShort(knotsV_)) return sampledDeviation(element, *face_.surface);
+    const double deviation = sampledDeviation(element, surface_);
+    const std::ptrdiff_t knots = knotsWithin(element);
+    constexpr std::ptrdiff_t kFew = 2, kBent = 8, kMostKnots = kMostStretches;
+    const bool bent = isBent(element, deviation);
+    if (knots < kFew && !bent) return deviation;
+    const auto order = static_cast<double>(std::clamp(knots + 1, bent ? kBent : kFew, kMostKnots));
+    double found = deviation;
+    for (double i = 0; i <= order; ++i) {
+      for (double j = 0; i + j <= order; ++j)
+        found = std::max(found, deviationAt(element, surface_, i / order, j / order));
+    }
+    return found;
+  }
+
+private:
+  struct Knots {
+    std::vector<double> within;
+    double period = 0;
+  };
+
+  static Knots knotsOf(const CadFace& face, bool alongU) {
+    Knots knots;
+    const Vector2 &low = face.domain.low(), &high = face.domain.high();
+    if (face.forms.count > 0 || face.surface->IsKind(STANDARD_TYPE(Geom_OffsetSurface))) return knots;
+    if (!(low.x() < high.x() && low.y() < high.y())) return knots;
+    const GeomAdaptor_Surface surface(face.surface, low.x(), high.x(), low.y(), high.y());
+    TColStd_Array1OfReal bounds(1, (alongU ? surface.NbUIntervals(GeomAbs_CN) : surface.NbVIntervals(GeomAbs_CN)) + 1);
+    alongU ? surface.UIntervals(bounds, GeomAbs_CN) : surface.VIntervals(bounds, GeomAbs_CN);
+    knots.within.assign(bounds.begin(), bounds.end());
+    if (alongU ? face.surface->IsUPeriodic() : face.surface->IsVPeriodic())
+      knots.period = alongU ? face.surface->UPeriod() : face.surface->VPeriod();
+    return knots;
+  }
+
+  /// How many knots of the surface lie between the corners.
+  static std::ptrdiff_t crossed(const Knots& knots, double a, double b, double c) {
+    if (knots.within.size() < 3) return 0;
+    const auto [low, high] = std::minmax({a, b, c});
+    const double shift = knots.period > 0 ? knots.period * std::floor((low - knots.within.front()) / knots.period) : 0;
+    const auto first = std::ranges::upper_bound(knots.within, low - shift);
+    const auto last = std::ranges::lower_bound(knots.within, high - shift);
+    return std::max<std::ptrdiff_t>(0, last - first);
+  }
+
+  std::ptrdiff_t knotsWithin(const CadElement& element) const {
+    const auto& [p, q, r] = element.parameters;
+    return std::max(crossed(knotsU_, p.x(), q.x(), r.x()), crossed(knotsV_, p.y(), q.y(), r.y()));
+  }
+
+  static bool isShort(const Knots& knots) { return knots.within.size() <= kMostStretches + 1; }
+
+  static bool isBent(const CadElement& element, double deviation) {
+    constexpr double kShare = 0.08;  // of its longest side: an arc of 36 degrees
+    const auto& [a, b, c] = element.corners;
+    return deviation > kShare * std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+  }
+
+  const CadFace& face_;
+  const Adaptor3d_Surface& surface_;
+  bool free_;
+  Knots knotsU_, knotsV_;
+};
+
 }  // namespace
 
 double deviationOf(const CadElement& element, const Geom_Surface& surface) {
-  double deviation = 0;
-  const auto probe = [&](double a, double b, double c) {
-    const Vector2 uv = a * element.parameters[0] + b * element.parameters[1] + c * element.parameters[2];
-    const Vector3 chord = a * element.corners[0] + b * element.corners[1] + c * element.corners[2];
-    deviation = std::max(deviation, (vector(surface.Value(uv.x(), uv.y())) - chord).norm());
-  };
-  probe(0.5, 0.5, 0);
-  probe(0, 0.5, 0.5);
-  probe(0.5, 0, 0.5);
-  probe(1.0 / 3, 1.0 / 3, 1.0 / 3);
-  probe(2.0 / 3, 1.0 / 6, 1.0 / 6);
-  probe(1.0 / 6, 2.0 / 3, 1.0 / 6);
-  probe(1.0 / 6, 1.0 / 6, 2.0 / 3);
-  return deviation;
+  return sampledDeviation(element, surface);
 }
+
+double deviationOf(const CadElement& element, const Adaptor3d_Surface& surface) {
+  return sampledDeviation(element, surface);
+}
+
+double growthBesideBorders(double deflection) { return 1.5 * 1.5 * deflection + kLeastGrowth; }
 
 std::vector<CadElement> faceElements(const CadFace& exact, const TopoDS_Face& face, std::uint32_t owner,
                                      double deflection) {
@@ -150,17 +244,18 @@ std::vector<CadElement> faceElements(const CadFace& exact, const TopoDS_Face& fa
     const Handle(Geom_Curve) curve = BRep_Tool::Curve(TopoDS::Edge(edges.Current()), first, last);
     straight = curve.IsNull() || curve->IsKind(STANDARD_TYPE(Geom_Line));
   }
+  const GeomAdaptor_Surface surface(exact.surface);
+  const Deviations deviations(exact, surface);
   const BorderSides borders(face, mesh, location);
   const auto add = [&](const Corner& a, const Corner& b, const Corner& c) {
     CadElement element;
     element.owner = owner;
     element.corners = {a.point, b.point, c.point};
     element.parameters = {a.parameters, b.parameters, c.parameters};
-    const double deviation =
-        flat ? distanceFrom(exact.forms.sheets.front(), element) : deviationOf(element, *exact.surface);
     area += areaInParameters(element);
+    const double deviation = flat ? distanceFrom(exact.forms.sheets.front(), element) : deviations.of(element);
     // Between a bent border and its chord no triangle lies.
-    element.growth = kLeastGrowth + 1.5 * std::max(deviation, straight ? 0.0 : 1.5 * deflection);
+    element.growth = std::max(kLeastGrowth + 1.5 * deviation, straight ? 0.0 : growthBesideBorders(deflection));
     elements.push_back(element);
   };
   for (int i = 1; i <= mesh->NbTriangles(); ++i) {

@@ -6,6 +6,7 @@
 #include <Geom2d_Curve.hxx>
 #include <Geom2d_Line.hxx>
 #include <Geom2d_TrimmedCurve.hxx>
+#include <GeomAdaptor_Surface.hxx>
 #include <Geom_Circle.hxx>
 #include <Geom_OffsetSurface.hxx>
 #include <Geom_Plane.hxx>
@@ -92,7 +93,8 @@ Handle(Geom_Curve) curveWithoutLimits(const Handle(Geom_Curve) & curve) {
 }
 
 /// The points of an edge's parameter curve on a face, in the direction in which the wire runs.
-std::vector<Vector2> borderPoints(const TopoDS_Edge& edge, const TopoDS_Face& face, const Geom_Surface& surface) {
+std::vector<Vector2> borderPoints(const TopoDS_Edge& edge, const TopoDS_Face& face, const Geom_Surface& surface,
+                                  const GeomAdaptor_Surface& quick) {
   double first = 0;
   double last = 0;
   const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, first, last);
@@ -115,7 +117,7 @@ std::vector<Vector2> borderPoints(const TopoDS_Edge& edge, const TopoDS_Face& fa
   } else {
     const bool flat = surface.IsKind(STANDARD_TYPE(Geom_Plane));
     const auto onSurface = [&](const Vector2& uv) {
-      return flat ? Vector3(uv.x(), uv.y(), 0) : vector(surface.Value(uv.x(), uv.y()));
+      return flat ? Vector3(uv.x(), uv.y(), 0) : vector(quick.Value(uv.x(), uv.y()));
     };
     const auto deviates = [&](double a, double b) {
       const Vector2 from = at(a);
@@ -184,14 +186,16 @@ std::vector<std::vector<Vector2>> loopsOf(std::vector<std::vector<Vector2>> piec
   return loops;
 }
 
-TrimmedDomain trimmedDomain(const TopoDS_Face& oriented, const Geom_Surface& surface) {
+TrimmedDomain trimmedDomain(const TopoDS_Face& oriented, const Handle(Geom_Surface) & exact) {
+  const Geom_Surface& surface = *exact;
+  const GeomAdaptor_Surface quick(exact);
   const TopoDS_Face face = TopoDS::Face(oriented.Oriented(TopAbs_FORWARD));
   std::vector<TrimmedDomain::Segment> border;
   for (TopExp_Explorer wires(face, TopAbs_WIRE); wires.More(); wires.Next()) {
     std::vector<std::vector<Vector2>> pieces;
     double size = 0;
     for (const TopoDS_Edge& edge : chainOf(TopoDS::Wire(wires.Current()), face)) {
-      pieces.push_back(borderPoints(edge, face, surface));
+      pieces.push_back(borderPoints(edge, face, surface, quick));
       for (const Vector2& p : pieces.back())
         size = std::max(size, (p - pieces.front().front()).norm());
     }
@@ -244,7 +248,7 @@ CadFace cadFace(const TopoDS_Face& face, std::optional<TrimmedDomain> domain) {
   CadFace exact;
   exact.surface = surfaceWithoutLimits(surface);
   exact.reversed = face.Orientation() == TopAbs_REVERSED;
-  exact.domain = domain ? std::move(*domain) : trimmedDomain(face, *exact.surface);
+  exact.domain = domain ? std::move(*domain) : trimmedDomain(face, exact.surface);
   exact.forms = closedForms(BRepAdaptor_Surface(face, Standard_False), exact.domain);
   return exact;
 }

@@ -32,8 +32,9 @@
 namespace probewright::simulation {
 namespace {
 
-constexpr double kFarthest = 1e9;          // mm
-constexpr std::size_t kWorthAThread = 20;  // faces
+constexpr double kFarthest = 1e9;             // mm
+constexpr double kDeflectionOfSize = 2.5e-6;  // of a large shape
+constexpr std::size_t kWorthAThread = 20;     // faces
 
 CadEdge cadEdge(const TopoDS_Edge& edge) {
   CadEdge exact;
@@ -148,28 +149,49 @@ CadModel modelOf(const TopoDS_Shape& shape, double deflection, std::vector<Trimm
   return model;
 }
 
-/// A box about the shape, to within its deflection.
+void addTo(Bounds& bounds, const Triangle& triangle) {
+  for (const Vector3& corner : triangle) {
+    bounds.minimum = bounds.minimum.cwiseMin(corner);
+    bounds.maximum = bounds.maximum.cwiseMax(corner);
+  }
+}
+
+/// A box about the shape, to within its deflection; of elements that stand face after face.
 Bounds boundsOf(const CadModel& model) {
-  Bounds corners;
-  const auto add = [](Bounds& bounds, const Triangle& triangle) {
-    for (const Vector3& corner : triangle) {
-      bounds.minimum = bounds.minimum.cwiseMin(corner);
-      bounds.maximum = bounds.maximum.cwiseMax(corner);
-    }
-  };
+  Bounds bounds;
   for (const CadElement& element : model.elements)
-    add(corners, element.corners);
+    addTo(bounds, element.corners);
   // The surface may reach further than the corners of its triangles.
-  Bounds bounds = corners;
-  const auto reachesFurther = [&](const Triangle& triangle, double growth) {
-    return std::ranges::any_of(triangle, [&](const Vector3& corner) {
-      return (corner.array() - growth < corners.minimum.array()).any() ||
-             (corner.array() + growth > corners.maximum.array()).any();
-    });
-  };
-  for (const CadElement& element : model.elements) {
-    if (element.isTriangle())
-      visitFinely(model, element, reachesFurther, [&](const Triangle& triangle) { add(bounds, triangle); });
+  std::vector<std::size_t> begins;  // of the elements of each face
+  for (std::size_t i = 0; i < model.elements.size(); ++i) {
+    const CadElement& element = model.elements[i];
+    if (element.kind != CadElement::Kind::Face) break;
+    if (i == 0 || element.owner != model.elements[i - 1].owner) begins.push_back(i);
+  }
+  std::vector<Bounds> ofFaces(begins.size(), bounds);
+  inParallel(begins.size(), kWorthAThread, [&](std::size_t k) {
+    Bounds& ofFace = ofFaces[k];
+    const auto reachesFurther = [&](const Triangle& triangle, double growth) {
+      const double further = growth - model.deflection;
+      return std::ranges::any_of(triangle, [&](const Vector3& corner) {
+        return (corner.array() - further < ofFace.minimum.array()).any() ||
+               (corner.array() + further > ofFace.maximum.array()).any();
+      });
+    };
+    const std::uint32_t owner = model.elements[begins[k]].owner;
+    const GeomAdaptor_Surface surface(model.faces[owner].surface);
+    for (std::size_t i = begins[k]; i < model.elements.size(); ++i) {
+      const CadElement& element = model.elements[i];
+      if (element.kind != CadElement::Kind::Face || element.owner != owner) break;
+      if (element.onFace) {
+        visitFinely(model, element, surface, reachesFurther,
+                    [&](const Triangle& triangle) { addTo(ofFace, triangle); });
+      }
+    }
+  });
+  for (const Bounds& ofFace : ofFaces) {
+    bounds.minimum = bounds.minimum.cwiseMin(ofFace.minimum);
+    bounds.maximum = bounds.maximum.cwiseMax(ofFace.maximum);
   }
   return bounds;
 }
@@ -209,6 +231,7 @@ CadModel exactModel(std::string_view bytes, double deflection, const std::stop_t
 }
 
 void addElements(CadModel& model) {
+  model.deflection = std::max(model.deflection, kDeflectionOfSize * sizeOf(model.shape));
   const Faces faces = facesOf(model.shape);
   std::vector<std::vector<CadElement>> ofFaces(faces.faces.size());
   inParallel(ofFaces.size(), kWorthAThread, [&](std::size_t i) {
@@ -275,6 +298,7 @@ void appendElements(std::string& bytes, const CadModel& model) {
   // With the tree: more would be copied each time that it does not suffice.
   bytes.reserve(bytes.size() + 250 * model.elements.size());
   append(bytes, marksOf(model));
+  append(bytes, model.deflection);
   append(bytes, model.bounds);
   append(bytes, model.elements.size());
   // One by one: between the members of an element lie bytes without a value.
@@ -293,8 +317,8 @@ void takeElements(CadModel& model, std::string_view bytes) {
   const auto refuse = [] { return std::runtime_error("its elements are not those of the shape"); };
   std::vector<double> marks;
   std::size_t count = 0;
-  if (!take(bytes, marks) || !agree(marks, marksOf(model)) || !take(bytes, model.bounds) || !take(bytes, count) ||
-      count > bytes.size())
+  if (!take(bytes, marks) || !agree(marks, marksOf(model)) || !take(bytes, model.deflection) ||
+      !take(bytes, model.bounds) || !take(bytes, count) || count > bytes.size())
     throw refuse();
   model.elements.resize(count);
   for (CadElement& element : model.elements) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Adaptor3d_Surface.hxx>
 #include <Geom_Curve.hxx>
 #include <TopoDS_Shape.hxx>
 #include <optional>
@@ -52,13 +53,20 @@ struct CadModel {
   std::vector<CadEdge> edges;
   std::vector<CadElement> elements;  ///< in the order of the tree
   SearchTree tree;
-  Bounds bounds;             ///< of the exact shape, to within the deflection
-  int closedBodies = 0;      ///< solids, so that a point is inside or outside
-  double deflection = 0.01;  ///< mm: how far triangles may leave a face where bodies other than balls meet it
+  Bounds bounds;         ///< of the exact shape, to within the deflection
+  int closedBodies = 0;  ///< solids, so that a point is inside or outside
+  /// mm: how far triangles may leave a face where bodies other than balls meet it. In shapes of more than four metres
+  /// it grows with their size.
+  double deflection = 0.01;
 };
 
 /// How far the surface leaves the triangle of an element, sampled.
 double deviationOf(const CadElement& element, const Geom_Surface& surface);
+/// The same of a face's own adaptor, which is quicker for places near each other.
+double deviationOf(const CadElement& element, const Adaptor3d_Surface& surface);
+
+/// mm: how near to its triangles a face with bent edges lies between an edge and its chords, where no triangle is.
+double growthBesideBorders(double deflection);
 
 /// Prepares a shape; tessellates it unless it has triangles that are fine enough. Throws Standard_Failure or
 /// std::runtime_error where that is impossible, as those below do.

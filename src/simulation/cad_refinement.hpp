@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "simulation/cad_model.hpp"
 
 /// Triangles of a face as fine as a contact needs them, made where something comes near.
@@ -8,15 +10,17 @@ namespace probewright::simulation {
 namespace detail {
 
 inline constexpr int kMostHalvings = 6;
+/// The samples may miss the place where the surface leaves the triangle most.
+inline constexpr double kSafety = 1.5;
 
-template <class IsNear, class Visit>
-void visitFinely(const CadElement& element, const Geom_Surface& surface, double deflection, int halvings,
-                 const IsNear& isNear, const Visit& visit) {
-  // The samples may miss the place where the surface leaves the triangle most.
-  constexpr double kSafety = 1.5;
-  const double deviation = deviationOf(element, surface);
-  if (!isNear(element.corners, kSafety * deviation)) return;
-  if (deviation <= deflection || halvings == kMostHalvings) return visit(element.corners);
+template <class Surface, class IsNear, class Visit>
+void visitParts(CadElement& element, const Surface& surface, double limit, double beside, int halvings,
+                const IsNear& isNear, const Visit& visit);
+
+/// The quarters of an element, and of them what is near.
+template <class Surface, class IsNear, class Visit>
+void visitQuarters(const CadElement& element, const Surface& surface, double limit, double beside, int halvings,
+                   const IsNear& isNear, const Visit& visit) {
   const auto& [a, b, c] = element.parameters;
   const std::array<Vector2, 6> parameters{a, b, c, (a + b) / 2, (b + c) / 2, (c + a) / 2};
   std::array<Vector3, 6> points{element.corners[0], element.corners[1], element.corners[2]};
@@ -30,21 +34,52 @@ void visitFinely(const CadElement& element, const Geom_Surface& surface, double 
       part.parameters[k] = parameters[corners[k]];
       part.corners[k] = points[corners[k]];
     }
-    visitFinely(part, surface, deflection, halvings + 1, isNear, visit);
+    visitParts(part, surface, limit, beside, halvings + 1, isNear, visit);
   }
+}
+
+template <class Surface, class IsNear, class Visit>
+void visitParts(CadElement& element, const Surface& surface, double limit, double beside, int halvings,
+                const IsNear& isNear, const Visit& visit) {
+  const double deviation = deviationOf(element, surface);
+  element.growth = std::max(kSafety * deviation, beside);
+  if (!isNear(element)) return;
+  if (deviation <= limit || halvings == kMostHalvings) return visit(element);
+  visitQuarters(element, surface, limit, beside, halvings, isNear, visit);
 }
 
 }  // namespace detail
 
 /// Calls `visit(triangle)` for triangles that stand for the element, a triangle of a face, and leave the face by at
 /// most the deflection of the model. `isNear(triangle, growth)` rules out what matters to nobody: the surface lies
-/// within `growth` of the triangle.
-template <class IsNear, class Visit>
-void visitFinely(const CadModel& model, const CadElement& element, const IsNear& isNear, const Visit& visit) {
+/// within `growth` of the triangle. `surface` is that of the face, or an adaptor of it.
+template <class Surface, class IsNear, class Visit>
+void visitFinely(const CadModel& model, const CadElement& element, const Surface& surface, const IsNear& isNear,
+                 const Visit& visit) {
   const CadFace& face = model.faces[element.owner];
   if (face.forms.isPlane()) return visit(element.corners);
-  if (isNear(element.corners, element.growth))
-    detail::visitFinely(element, *face.surface, model.deflection, 0, isNear, visit);
+  if (!isNear(element.corners, element.growth)) return;
+  CadElement whole = element;
+  detail::visitParts(
+      whole, surface, model.deflection, 0, 0, [&](const CadElement& part) { return isNear(part.corners, part.growth); },
+      [&](const CadElement& part) { visit(part.corners); });
+}
+
+template <class IsNear, class Visit>
+void visitFinely(const CadModel& model, const CadElement& element, const IsNear& isNear, const Visit& visit) {
+  visitFinely(model, element, *model.faces[element.owner].surface, isNear, visit);
+}
+
+/// Calls `visit(part)` for triangles that stand for the element, a triangle of a free-form face, and leave the face by
+/// so little that a search for the contact of a ball with the exact surface may begin there. `isNear(part)` rules out
+/// parts; the element itself is near.
+template <class IsNear, class Visit>
+void visitForBall(const CadModel& model, const CadElement& element, const IsNear& isNear, const Visit& visit) {
+  constexpr double kEnough = 30;  // deflections
+  const double limit = kEnough * model.deflection;
+  if (element.growth <= detail::kSafety * limit) return visit(element);
+  detail::visitQuarters(element, *model.faces[element.owner].surface, limit, growthBesideBorders(model.deflection), 0,
+                        isNear, visit);
 }
 
 }  // namespace probewright::simulation

@@ -36,7 +36,7 @@ private:
 
 /// A triangle near which it is not clear where a free-form face is met.
 struct OpenQuestion {
-  const CadElement* triangle;
+  CadElement triangle;
   double soonest;  ///< no meeting there is earlier
 };
 
@@ -53,8 +53,17 @@ void meet(const CadModel& model, const CadElement& element, const Way& way, doub
     const CadFace& face = model.faces[element.owner];
     if (face.forms.count > 0) {
       if (!memory.knows(element)) meetAnalyticFace(face, way, radius, best);
-    } else if (!meetFaceNear(face, element, coarse, way, radius, best)) {
-      open.push_back({&element, coarse.when});
+    } else {
+      visitForBall(
+          model, element,
+          [&](const CadElement& part) {
+            coarse = {};
+            coarse.when = best.when;
+            return sweepTriangle(way, radius + part.growth, part.corners, coarse);
+          },
+          [&](const CadElement& part) {
+            if (!meetFaceNear(face, part, coarse, way, radius, best)) open.push_back({part, coarse.when});
+          });
     }
   } else {
     const CadEdge& edge = model.edges[element.owner];
@@ -135,7 +144,7 @@ std::optional<BallContact> CadSolid::firstContact(const Vector3& from, const Vec
   std::sort(open.begin(), open.end(), [](const auto& a, const auto& b) { return a.soonest < b.soonest; });
   for (const OpenQuestion& question : open) {
     if (question.soonest < best.when)
-      meetFaceClosely(model_->faces[question.triangle->owner], *question.triangle, mover.way, radius, best);
+      meetFaceClosely(model_->faces[question.triangle.owner], question.triangle, mover.way, radius, best);
   }
   // From within one body the ball may meet another body's front: where both touch, or where they overlap.
   const bool startsOutside = model_->closedBodies == 1 && meetsFront(mover.way, best);

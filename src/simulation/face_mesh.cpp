@@ -18,6 +18,7 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Face.hxx>
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <stdexcept>
@@ -29,7 +30,8 @@ namespace {
 
 /// The angle only keeps small curves recognizable.
 constexpr double kAngle = 0.5;
-/// Triangles only help to find a face, so its inside need not be meshed as finely as its edges.
+/// Triangles only help to find a face, so its inside need not be meshed as finely as its edges; where a contact needs
+/// it they are halved.
 constexpr double kInterior = 30;
 /// Sides on a bent edge are halved before it matters.
 constexpr double kAlongEdges = 8;
@@ -159,17 +161,10 @@ Handle(Poly_Triangulation) triangulation(const CadFace& face, const FaceGrid& gr
   return mesh;
 }
 
-bool hasTriangles(const TopoDS_Face& face) {
+bool hasTriangles(const TopoDS_Face& face, int mostPoints = std::numeric_limits<int>::max()) {
   TopLoc_Location location;
   const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, location);
-  return !mesh.IsNull() && mesh->HasUVNodes() && mesh->NbTriangles() > 0;
-}
-
-/// Roughly, and 0 where it has none.
-double sizeOf(const TopoDS_Shape& shape) {
-  Bnd_Box box;
-  BRepBndLib::Add(shape, box, Standard_False);
-  return box.IsVoid() || box.IsOpen() ? 0 : box.CornerMin().Distance(box.CornerMax());
+  return !mesh.IsNull() && mesh->HasUVNodes() && mesh->NbTriangles() > 0 && mesh->NbNodes() <= mostPoints;
 }
 
 /// True for borders that OpenCASCADE got wrong: they run to and fro, and no place lies within.
@@ -179,6 +174,12 @@ bool enclosesNothing(const TrimmedDomain& domain) {
 }
 
 }  // namespace
+
+double sizeOf(const TopoDS_Shape& shape) {
+  Bnd_Box box;
+  BRepBndLib::Add(shape, box, Standard_False);
+  return box.IsVoid() || box.IsOpen() ? 0 : box.CornerMin().Distance(box.CornerMax());
+}
 
 std::size_t faceCount(const TopoDS_Shape& shape) { return numbered(shape).size(); }
 
@@ -213,7 +214,7 @@ std::vector<GridFace> meshFaces(const TopoDS_Shape& shape, double deflection, co
     const TopoDS_Face face = TopoDS::Face(faces.Current().Oriented(TopAbs_FORWARD));
     const int number = numbers.at(face.TShape().get());
     if (!seen.insert(number).second) continue;
-    if (hasTriangles(face) && !givenUp.contains(number)) {
+    if (hasTriangles(face, options.mostPoints) && !givenUp.contains(number)) {
       TopLoc_Location location;
       BRep_Tool::Triangulation(face, location)->Deflection(deflection);
       continue;

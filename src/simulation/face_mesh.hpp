@@ -28,6 +28,9 @@ struct GridFace {
   double cell = 0;       ///< mm: how far it may reach over the border of the face
 };
 
+/// mm, roughly: the diagonal of a box about a shape, and 0 where it has none.
+double sizeOf(const TopoDS_Shape& shape);
+
 /// The faces of a shape that are different from each other, in the order in which an explorer meets them.
 std::size_t faceCount(const TopoDS_Shape& shape);
 
@@ -36,9 +39,9 @@ bool isMeshed(const TopoDS_Shape& shape, double deflection);
 
 /// Gives every face triangles, as the mesher of OpenCASCADE makes them: along its edges they leave it by about eight
 /// times `deflection` (mm), within it by up to about thirty times as much (on some free forms even more), in shapes of
-/// more than about three metres by a share of their size. Faces that it
-/// gives up or leaves without triangles get a grid of cells over their parameters instead: on the surface, but reaching
-/// over the border by up to a cell. They are returned.
+/// more than about three metres by a share of their size. Faces that it gives up or leaves without triangles get a grid
+/// of cells over their parameters instead: on the surface, but reaching over the border by up to a cell. They are
+/// returned.
 std::vector<GridFace> meshFaces(const TopoDS_Shape& shape, double deflection, const FaceMeshOptions& options = {});
 
 }  // namespace probewright::simulation

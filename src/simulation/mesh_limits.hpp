@@ -6,4 +6,7 @@ namespace probewright::simulation {
 /// of work. A count of work, not of time: on every machine the same faces are given up.
 inline constexpr int kMostMeshPoints = 50'000;
 
+/// Surfaces with at most so many stretches between knots, along u and along v, are sampled between them.
+inline constexpr int kMostStretches = 12;
+
 }  // namespace probewright::simulation
