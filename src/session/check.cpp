@@ -23,8 +23,12 @@ Diagnostics checkProgram(const std::filesystem::path& path, std::optional<contro
       openProgram(path, *text, languageFor(*kind, path, *text, families), families);
   if (!program) return {program.error()};
   const ControlFamily& family = families.of(*kind);
-  Diagnostics found = family.check(
-      {.program = **program, .control = *kind, .path = path, .beliefs = beliefs, .skipLevels = skipLevels});
+  Diagnostics found = family.check({.program = **program,
+                                    .control = *kind,
+                                    .path = path,
+                                    .beliefs = beliefs,
+                                    .skipLevels = skipLevels,
+                                    .machine = machine});
   if (beliefs != nullptr && family.inventory != nullptr) {
     Inventory inventory = family.inventory(*beliefs, *kind, found);
     HostFiles files(path, *beliefs);

@@ -64,6 +64,7 @@ struct CheckRequest {
   const control::Beliefs* beliefs = nullptr;  ///< of its control; null if nothing is known
   std::bitset<10> skipLevels = {};            ///< levels of block skip that are on
   bool foresees = true;                       ///< also what a run would refuse when it gets there
+  const machine::MachineDescription* machine = nullptr;  ///< null if it is not known
 };
 
 /// A tool or a row as the text of a program names it.

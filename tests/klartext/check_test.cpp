@@ -300,6 +300,33 @@ TEST(Check, KnowsThatTransChangesWhatCyclesHaveSet) {
   }
 }
 
+TEST(Check, KnowsTransModesAndTiltedPlanesBeforeACycle) {
+  const std::string cycle = inspection421("0", "0");
+  const auto warned = [&](const std::string& before, const std::string& then) {
+    return checked(framed(call + before + then));
+  };
+  for (const auto& [before, active] : {std::pair("2 TRANS DATUM AXIS X+3\n", "TRANS DATUM is active"),
+                                       std::pair("2 TRANS MIRROR AXIS X\n", "TRANS MIRROR is active"),
+                                       std::pair("2 TRANS ROTATION ROT+5\n", "TRANS ROTATION is active"),
+                                       std::pair("2 TRANS SCALE SCL0.5\n", "TRANS SCALE is active"),
+                                       std::pair("2 FUNCTION MODE TURN\n", "FUNCTION MODE TURN is active"),
+                                       std::pair("2 FUNCTION MODE GRIND\n", "FUNCTION MODE GRIND is active")})
+    EXPECT_NE(warned(before, cycle).find(active), std::string::npos) << before;
+  for (const char* ended : {"2 TRANS DATUM AXIS X+Q5\n", "2 TRANS DATUM AXIS X+3\n3 TRANS DATUM RESET\n",
+                            "2 FUNCTION MODE TURN\n3 FUNCTION MODE MILL\n"})
+    EXPECT_EQ(warned(ended, cycle).find("421 is refused"), std::string::npos) << ended;
+  const std::string rotation400 =
+      "TCH PROBE 400 ~\n Q263=0 ~\n Q264=0 ~\n Q265=50 ~\n Q266=0 ~\n Q272=2 ~\n Q267=1 ~\n Q261=-5 ~\n Q320=0 ~\n "
+      "Q260=20 ~\n"
+      " Q301=0 ~\n Q307=0 ~\n Q305=0\n";
+  const std::string plane = "2 PLANE SPATIAL SPA+10 SPB+0 SPC+0 STAY\n", reset = "3 PLANE RESET STAY\n";
+  EXPECT_NE(warned(plane, rotation400).find("PLANE SPATIAL is active"), std::string::npos);
+  EXPECT_NE(warned("2 CYCL DEF 19.0 PLANE\n3 CYCL DEF 19.1 A+0 B+10 C+0\n", rotation400).find("cycle 19 is active"),
+            std::string::npos);
+  EXPECT_EQ(warned(plane + reset, rotation400).find("is active"), std::string::npos);
+  EXPECT_EQ(warned(plane, cycle).find("is active"), std::string::npos) << "421 runs in tilted planes";
+}
+
 /// Results of cycles 0, 3 and 4 go into Q parameters; another letter is not dropped.
 TEST(Check, RefusesResultsInOtherParameters) {
   for (const char* name : {"QL5", "QR5", "QS5"}) {

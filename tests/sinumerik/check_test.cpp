@@ -198,6 +198,17 @@ TEST(SinumerikCheck, KnowsWhatForbidsAMeasuringCycle) {
   EXPECT_EQ(told("G42 X5\nG40 X10\n" + cycle), "");
   EXPECT_EQ(told("SCALE X2 Y2\nAROT Z10\n" + cycle),
             "3:1 a scale factor is active: the control refuses CYCLE978 with alarm 61310\n");
+  CheckOptions mill;
+  mill.onMill = true;
+  const auto onMill = [&](const std::string& before) {
+    const Diagnostics found = check(*SinumerikProgram::fromText("test.mpf", before + "\n" + cycle), mill);
+    return found.empty() ? "" : found.front().message;
+  };
+  EXPECT_EQ(onMill("MIRROR X0"),
+            "mirroring is active: the control refuses CYCLE978 with alarm 61310, except with a turning probe");
+  EXPECT_EQ(onMill("MIRROR X0\nAMIRROR X0"), "");
+  EXPECT_EQ(onMill("MIRROR X0\nMIRROR"), "");
+  EXPECT_EQ(told("MIRROR X0\n" + cycle), "") << "counter-spindles of lathes may be mirrored";
   for (const char* harmless : {"SCALE X1", "SCALE X2\nSCALE", "SCALE X2\nTRANS X5", "ASCALE X=R1"})
     EXPECT_EQ(told(std::string(harmless) + "\n" + cycle), "") << harmless;
   for (const char* unknown :

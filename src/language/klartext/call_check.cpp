@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/number_text.hpp"
+#include "base/text.hpp"
 #include "cycles/catalogue.hpp"
 #include "cycles/heidenhain/call_rules.hpp"
 #include "cycles/heidenhain/probe_words.hpp"
@@ -35,7 +36,7 @@ bool existsOnControls(int number) {
   return std::ranges::any_of(ranges, [&](const auto& r) { return number >= r.first && number <= r.second; });
 }
 
-std::string nameOf(const cycles::Parameter& parameter) {
+std::string described(const cycles::Parameter& parameter) {
   return fmt::format("{} ({})", parameter.name, parameter.meaning);
 }
 
@@ -79,7 +80,7 @@ std::vector<CallCheck::Remark> CallCheck::of(const Block& block, const CycleCall
   for (const cycles::Parameter& parameter : cycle->parameters) {
     const bool needed = parameter.required() && parameter.controls.contains(kind_);
     if (!needed || std::ranges::find(words, parameter.address, &Word::address) != words.end()) continue;
-    remark(fmt::format("cycle {} lacks {}", cycle->name, nameOf(parameter)),
+    remark(fmt::format("cycle {} lacks {}", cycle->name, described(parameter)),
            fmt::format("add {} with its value", parameter.name));
     remarks_.back().lacking = parameter.address;
   }
@@ -137,12 +138,23 @@ void CallCheck::checkState(const cycles::CycleDefinition& cycle) {
            Severity::Warning);
     toolCalled_ = true;
   }
+  const auto refused = [&](const std::string& active, std::string advice) {
+    remark(fmt::format("cycle {} is refused here: {} is active", cycle.name, active), std::move(advice),
+           Severity::Warning);
+  };
+  if (mode_ == "GRIND" || (mode_ == "TURN" && !conditions.turningMode))
+    refused("FUNCTION MODE " + mode_, "program FUNCTION MODE MILL before it");
+  if (!tilt_.empty() && !conditions.tilted.contains(kind_)) {
+    const std::string end = tilt_.starts_with("PLANE") ? "PLANE RESET" : "cycle 19 with 0 degrees";
+    refused(tilt_, fmt::format("program {} before it", end));
+  }
   if (kind_ != control::ControlKind::TNC640) return;
   const auto forbidden = cycles::heidenhain::forbiddenTransformations(conditions);
   for (const auto& [number, active] : transforms_) {
-    if (!active || !(number == 7 ? forbidden.shift : number == 10 ? forbidden.rotation : forbidden.other)) continue;
-    remark(fmt::format("cycle {} is refused here: cycle {} is active", cycle.name, number),
-           fmt::format("end cycle {} before it", number), Severity::Warning);
+    if (active.empty() || !(number == 7 ? forbidden.shift : number == 10 ? forbidden.rotation : forbidden.other))
+      continue;
+    refused(active, active.starts_with("TRANS") ? fmt::format("program {} RESET before it", active)
+                                                : fmt::format("end {} before it", active));
   }
 }
 
@@ -150,10 +162,21 @@ void CallCheck::follow(const ToolCall& call) {
   if (call.number.present() || call.name.present()) toolCalled_ = true;
 }
 
-/// Cycles 7, 8, 10, 11 and 26: active, ended, or unknown because the program computes their values.
+void CallCheck::follow(const Block& block, const Command& command) {
+  constexpr std::string_view mode = "MODE ";
+  if (kindOf(block, command) != CommandKind::Function) return;
+  const std::string text = upperCase(block.at(command.text));
+  if (!text.starts_with(mode)) return;
+  const std::string_view named = std::string_view(text).substr(mode.size());
+  mode_ = named.starts_with("TURN") ? "TURN" : named.starts_with("GRIND") ? "GRIND" : "";
+}
+
+/// Cycles 7, 8, 10, 11 and 26, and TRANS, which changes what they have set: active, ended, or unknown because the
+/// program computes their values.
 void CallCheck::follow(const Block& block, const Transform& transform) {
   block_ = &block;
   int number = 0;
+  std::string name;
   switch (kindOf(*block_, transform)) {
     case TransformKind::DatumShift:
       number = 7;
@@ -173,21 +196,29 @@ void CallCheck::follow(const Block& block, const Transform& transform) {
     case TransformKind::PresetByCycle:
       transforms_.clear();
       return;
-    // TRANS changes what the cycle of the same name has set.
     case TransformKind::TransDatumAxis:
+      number = 7, name = "TRANS DATUM";
+      break;
+    case TransformKind::TransMirror:
+      number = 8, name = "TRANS MIRROR";
+      break;
+    case TransformKind::TransRotation:
+      number = 10, name = "TRANS ROTATION";
+      break;
+    case TransformKind::TransScale:
+      transforms_.erase(26);
+      number = 11, name = "TRANS SCALE";
+      break;
     case TransformKind::TransDatumTable:
     case TransformKind::TransDatumReset:
       transforms_.erase(7);
       return;
-    case TransformKind::TransMirror:
     case TransformKind::TransMirrorReset:
       transforms_.erase(8);
       return;
-    case TransformKind::TransRotation:
     case TransformKind::TransRotationReset:
       transforms_.erase(10);
       return;
-    case TransformKind::TransScale:
     case TransformKind::TransScaleReset:
       transforms_.erase(11);
       transforms_.erase(26);
@@ -201,12 +232,14 @@ void CallCheck::follow(const Block& block, const Transform& transform) {
     case TransformKind::PlaneRelative:
     case TransformKind::PlaneAxial:
     case TransformKind::PlaneReset:
+      followTilt(transform);
       return;
   }
+  if (name.empty()) name = fmt::format("cycle {}", number);
   const std::span<const Word> words =
       std::span<const Word>(block_->words).subspan(transform.words.first, transform.words.count);
   if (number == 8) {
-    transforms_[8] = !words.empty();
+    transforms_[8] = words.empty() ? "" : name;
     return;
   }
   const double neutral = number == 7 || number == 10 ? 0 : 1;
@@ -221,11 +254,39 @@ void CallCheck::follow(const Block& block, const Transform& transform) {
     }
     active = active || value->number != neutral;
   }
-  // Cycle 7 keeps the axes that it does not name.
+  // A shift keeps the axes that it does not name.
   if (!active && number == 7 && words.size() < 3) {
     transforms_.erase(number);
   } else {
-    transforms_[number] = active;
+    transforms_[number] = active ? name : "";
+  }
+}
+
+/// Angles that lean the tool axis, written as numbers; of other descriptions only the run knows.
+void CallCheck::followTilt(const Transform& transform) {
+  tilt_.clear();
+  const TransformKind kind = kindOf(*block_, transform);
+  const bool cycle = kind == TransformKind::Tilting;
+  const auto leans = [&](std::uint32_t address) {
+    const std::string name = addressName(address);
+    switch (kind) {
+      case TransformKind::Tilting:
+        return name == "A" || name == "B";
+      case TransformKind::PlaneSpatial:
+        return name == "SPA" || name == "SPB";
+      case TransformKind::PlaneProjected:
+        return name == "PROPR" || name == "PROMIN";
+      case TransformKind::PlaneEuler:
+        return name == "EULNU";
+      default:
+        return false;
+    }
+  };
+  for (std::uint32_t i = 0; i < transform.words.count; ++i) {
+    const Word& word = block_->words[transform.words.first + i];
+    if (!leans(word.address) || word.mode == WordMode::Incremental) continue;
+    const auto value = literal(word);
+    if (value && !value->isText && value->number != 0) tilt_ = cycle ? "cycle 19" : nameOf(kind);
   }
 }
 
@@ -240,7 +301,7 @@ void CallCheck::checkWord(const cycles::CycleDefinition& cycle, const Word& word
   if (!parameter->controls.contains(kind_)) {
     remarkAt(
         word,
-        fmt::format("{} does not exist in cycle {} of the {}", nameOf(*parameter), cycle.name, control::name(kind_)),
+        fmt::format("{} does not exist in cycle {} of the {}", described(*parameter), cycle.name, control::name(kind_)),
         "take it out");
     return;
   }
@@ -253,7 +314,7 @@ void CallCheck::checkWord(const cycles::CycleDefinition& cycle, const Word& word
     if (node == nullptr) return;
     if (node->operation == Operation::Call && node->function == Function::Host && block_->at(node->text) == "PREDEF") {
       if (parameter->predefinable) return;
-      remarkAt(word, fmt::format("{} cannot be PREDEF", nameOf(*parameter)), "write its value");
+      remarkAt(word, fmt::format("{} cannot be PREDEF", described(*parameter)), "write its value");
       return;
     }
     if (node->operation != Operation::Text) return;  // computed while the program runs
@@ -263,12 +324,12 @@ void CallCheck::checkWord(const cycles::CycleDefinition& cycle, const Word& word
   }
   std::string text = cycles::complaint(*parameter, argument);
   if (text.empty() && parameter->address == steppingAngle && std::abs(argument.number) < smallestStep) {
-    text = fmt::format("{} cannot be {}", nameOf(*parameter), formatShortest(argument.number));
+    text = fmt::format("{} cannot be {}", described(*parameter), formatShortest(argument.number));
   }
   if (text.empty() && argument.isText && isDimension(word.address)) {
     const auto dimension = metrology::parseDimension(argument.text);
     if (dimension) return;
-    remarkAt(word, fmt::format("{} = \"{}\": {}", nameOf(*parameter), argument.text, dimension.error().message),
+    remarkAt(word, fmt::format("{} = \"{}\": {}", described(*parameter), argument.text, dimension.error().message),
              dimension.error().advice);
     return;
   }

@@ -32,6 +32,7 @@ public:
   /// What else passes, in the order of the program.
   void follow(const ToolCall& call);
   void follow(const Block& block, const Transform& transform);
+  void follow(const Block& block, const Command& command);
   /// A label, a jump or a call: from here on nobody knows what has run before.
   void wayBranches() { plainWay_ = false; }
 
@@ -43,13 +44,17 @@ private:
   void checkWord(const cycles::CycleDefinition& cycle, const Word& word);
   void checkTogether(const cycles::CycleDefinition& cycle, std::span<const Word> words);
   void checkState(const cycles::CycleDefinition& cycle);
+  void followTilt(const Transform& transform);
 
   control::ControlKind kind_;
   bool foresees_;
   const Block* block_ = nullptr;  ///< the one that is looked at
   std::vector<Remark> remarks_;
-  std::map<int, bool> transforms_;  ///< by cycle; absent: unknown or never defined
-  bool plainWay_ = true;            ///< every block so far has run once
+  /// By cycle: what is active ("cycle 7", "TRANS DATUM"), empty if it has ended; absent: unknown or never defined.
+  std::map<int, std::string> transforms_;
+  std::string tilt_;      ///< "PLANE SPATIAL", "cycle 19"; empty: not tilted, or unknown
+  std::string mode_;      ///< of FUNCTION MODE: "TURN", "GRIND"; empty: MILL
+  bool plainWay_ = true;  ///< every block so far has run once
   bool toolCalled_ = false;
 };
 

@@ -247,6 +247,7 @@ private:
     if (!call.nameValue.present()) called(call.name);
   }
   void look(const Command& command) {
+    calls_.follow(block_, command);
     const CommandKind kind = kindOf(block_, command);
     if (kind == CommandKind::Error) {
       reportHere("the control marked this block as wrong", "correct the block and take ERROR = away");

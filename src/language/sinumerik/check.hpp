@@ -28,6 +28,8 @@ struct CheckOptions {
   std::bitset<10> skipLevels = {};
   /// What definition files declare, in their order.
   std::vector<DeclaredDatum> globalData = {};
+  /// The machine is known, and it is a mill: measuring cycles refuse mirrored systems there.
+  bool onMill = false;
   /// Also what a run refuses when it gets there: it says so itself, and may never get there.
   bool foresees = true;
 };

@@ -36,10 +36,13 @@ void Checker::followState(const Instruction& instruction) {
     const std::string_view name = block_.at(change->name);
     const bool more = name.starts_with('A');
     state_.scaled = (more && state_.scaled) || ((name == "SCALE" || name == "ASCALE") && scales(block_, *change));
+    const bool mirrors = name == "MIRROR" || name == "AMIRROR";
+    // Mirrored twice: only the run knows which axes still are.
+    state_.mirrored = mirrors ? change->words.count > 0 && !(more && state_.mirrored) : more && state_.mirrored;
   } else if (const auto* command = std::get_if<Command>(&instruction)) {
     if (block_.at(command->name) == "G") state_ = {};  // G[7]=1
   } else if (const auto* assign = std::get_if<Assign>(&instruction)) {
-    if (block_.at(block_.variables[assign->variable].name).starts_with("$P_")) state_.scaled = false;
+    if (block_.at(block_.variables[assign->variable].name).starts_with("$P_")) state_.scaled = state_.mirrored = false;
   } else if (const auto* call = std::get_if<CallProgram>(&instruction)) {
     if (!callsCycle(*call)) state_ = {};
   }
@@ -55,6 +58,11 @@ void Checker::checkState(std::string_view cycle) {
   } else if (state_.scaled) {
     report(columnOf(cycle), fmt::format("a scale factor is active: the control refuses {} with alarm 61310", cycle),
            "Cancel it by SCALE without axes before the measuring cycle.");
+  } else if (state_.mirrored && options_.onMill) {
+    report(
+        columnOf(cycle),
+        fmt::format("mirroring is active: the control refuses {} with alarm 61310, except with a turning probe", cycle),
+        "Cancel it by MIRROR without axes before the measuring cycle.", Severity::Warning);
   }
   state_ = {};
 }

@@ -30,6 +30,7 @@ private:
   struct State {
     std::string correction;  ///< G41, G42; empty: G40, or not known
     bool scaled = false;     ///< by SCALE or ASCALE with a factor other than 1
+    bool mirrored = false;   ///< by MIRROR or AMIRROR of an axis
   };
 
   std::size_t columnOf(std::string_view name) const;

@@ -42,6 +42,7 @@ Diagnostics checkSinumerik(const CheckRequest& request, const execution::sinumer
        .globalVariables = request.beliefs != nullptr ? namesOfData(*request.beliefs) : std::set<std::string>(),
        .skipLevels = request.skipLevels,
        .globalData = globalData.declarations(),
+       .onMill = request.machine != nullptr && !request.machine->mainSpindle,
        .foresees = request.foresees});
 }
 
