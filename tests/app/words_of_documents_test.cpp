@@ -106,6 +106,8 @@ const std::map<std::string, std::string> blockOf = {
     {"$P_TRAFRAME", "$P_TRAFRAME=CTRANS(X,1)"},
     {"$P_CYCFRAME", "$P_CYCFRAME=CTRANS(X,1)"},
     {"$P_GFRAME", "$P_GFRAME=CTRANS(X,1)"},
+    {"$P_CHBFRMASK", "$P_CHBFRMASK=0"},
+    {"$P_NCBFRMASK", "$P_NCBFRMASK=0"},
     {"SOFT", "SOFT"},
     {"FFWON", "FFWON"},
     {"COMPCAD", "COMPCAD"},

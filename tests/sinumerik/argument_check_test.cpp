@@ -264,7 +264,7 @@ TEST(SinumerikArguments, VariantsThatDoNotFitTogetherAreNamed) {
   EXPECT_EQ(told("CYCLE978(10000,,,1,20,5,1,3,2,1)"),
             "1:10 argument 1 of CYCLE978: S_MVAR does not fit S_MA: along the tool only the standard method measures");
   EXPECT_EQ(told("CYCLE998(10006,,0,1,1,0,0,5,5,201,1,10,10,,,10,1,,1,)"),
-            "1:10 argument 1 of CYCLE998: S_MVAR does not fit the measuring variant: a plane is measured along the "
+            "1:10 argument 1 of CYCLE998: S_MVAR does not fit together: a plane is measured along the "
             "tool by the standard method only");
   EXPECT_EQ(told("CYCLE998(10005,,0,1,1,0,,5,5,103,1,10,,,,,1,,1,)"),
             "1:30 argument 10 of CYCLE998: S_MA does not fit the measuring variant: spindle reversal measures only in "

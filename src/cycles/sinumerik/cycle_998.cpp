@@ -342,17 +342,13 @@ constexpr CycleDefinition definition = {
 };
 
 void combinations(CallCombinations& call) {
-  const auto refuse = [&](const char* parameter, const char* why) {
-    call.refuse(parameter, fmt::format("{} does not fit the measuring variant: {}", parameter, why));
-  };
   const bool plane = call.digit(1) == 6, standard = call.digit(5) == 0;
-  if (plane) {
-    const auto rotary = call.number("S_RA");
-    if (!standard) refuse("S_MVAR", planeAlongTool);
-    if (rotary && truncated(*rotary) != 0) refuse("S_RA", planeTurns);
-  } else if (const auto axes = call.number("S_MA"); axes && truncated(std::abs(*axes)) % 10 == 3 && !standard) {
-    refuse("S_MA", reversedInPlane);
-  }
+  const std::string variant = "S_MVAR does not fit together: ", with = " does not fit the measuring variant: ";
+  const auto axes = call.number("S_MA"), rotary = call.number("S_RA");
+  if (plane && !standard) call.refuse("S_MVAR", variant + planeAlongTool);
+  if (plane && rotary && truncated(*rotary) != 0) call.refuse("S_RA", "S_RA" + with + planeTurns);
+  if (!plane && !standard && axes && truncated(std::abs(*axes)) % 10 == 3)
+    call.refuse("S_MA", "S_MA" + with + reversedInPlane);
 }
 
 void run(Context& context, const Arguments&) {

@@ -50,7 +50,7 @@ void Checker::followState(const Instruction& instruction) {
 
 /// Said once of a cause.
 void Checker::checkState(std::string_view cycle) {
-  if (cycle == "CYCLE150") return;  // it touches nothing
+  if (!options_.foresees || cycle == "CYCLE150") return;  // CYCLE150 touches nothing
   if (!state_.correction.empty()) {
     report(columnOf(cycle),
            fmt::format("{} is active: the control refuses {} with alarm 61300", state_.correction, cycle),
