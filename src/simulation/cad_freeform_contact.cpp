@@ -15,6 +15,23 @@ void keep(Meeting& best, double when, const Vector3& point, const Vector3& norma
   if (when < best.when) best = {when, point, normal};
 }
 
+/// Tells when the steps of an iteration have become small enough. Where coordinates are large, rounding keeps them from
+/// shrinking on: then the last step was as good as any.
+class Settling {
+public:
+  explicit Settling(double enough) : enough_(enough) {}
+  bool after(double step) {
+    constexpr double kRounding = 1e-9;
+    const bool settled = step < enough_ || (step < kRounding && step >= last_);
+    last_ = step;
+    return settled;
+  }
+
+private:
+  double enough_;  ///< mm, as the steps
+  double last_ = 1e300;
+};
+
 struct SurfacePoint {
   Vector3 point, u, v, uu, uv, vv;
 };
@@ -59,6 +76,7 @@ Vector2 parameterSize(const Geom_Surface& surface) {
 
 /// Moves `at` to the parameters of the surface's point nearest to p, starting nearby. False if that does not settle.
 bool projectOntoSurface(const Geom_Surface& surface, const Vector3& p, const Vector2& extent, Vector2& at) {
+  Settling settling(1e-11);
   for (int i = 0; i < 30; ++i) {
     const SurfacePoint s = evaluate(surface, at);
     const Vector3 w = p - s.point;
@@ -74,7 +92,7 @@ bool projectOntoSurface(const Geom_Surface& surface, const Vector3& p, const Vec
     if (!step.allFinite()) return false;
     step = step.cwiseMax(-extent).cwiseMin(extent);
     at += step;
-    if ((s.u * step.x() + s.v * step.y()).norm() < 1e-11) return true;
+    if (settling.after((s.u * step.x() + s.v * step.y()).norm())) return true;
   }
   return false;
 }
@@ -82,6 +100,7 @@ bool projectOntoSurface(const Geom_Surface& surface, const Vector3& p, const Vec
 /// Newton's method for the place where a ball on its way touches the surface. False if it does not settle.
 bool solveSurfaceTouch(const Geom_Surface& surface, const Way& way, double radius, const Vector2& extent, Vector2& at,
                        double& when) {
+  Settling settling(1e-12);
   for (int i = 0; i < 25; ++i) {
     const SurfacePoint s = evaluate(surface, at);
     const Vector3 w = way.at(when) - s.point;
@@ -100,7 +119,8 @@ bool solveSurfaceTouch(const Geom_Surface& surface, const Way& way, double radiu
     if (std::abs(step[2]) > radius) scale = std::min(scale, radius / std::abs(step[2]));
     at += scale * step.head<2>();
     when += scale * step[2];
-    if (std::abs(step[2]) < 1e-12 && (s.u * step.x() + s.v * step.y()).norm() < 1e-9) return true;
+    const bool still = settling.after(std::abs(step[2]));
+    if (still && (s.u * step.x() + s.v * step.y()).norm() < 1e-9) return true;
   }
   return false;
 }
@@ -119,8 +139,10 @@ public:
   /// Looks again where the iterations went astray: at smaller triangles around, those first that would be met first,
   /// until they settle or are as good as the surface.
   void closely(const CadElement& triangle) {
-    for (const CadElement& part : quarters(widened(triangle)))
-      consider(part, 1);
+    for (const CadElement& piece : widened(triangle)) {
+      for (const CadElement& part : quarters(piece))
+        consider(part, 1);
+    }
     for (int looked = 0; !open_.empty() && best_.when >= 0; ++looked) {
       std::pop_heap(open_.begin(), open_.end(), later);
       const Part next = std::move(open_.back());
@@ -165,14 +187,41 @@ private:
     return e;
   }
 
-  /// The same triangle, large enough to cover what a chord cuts off beside it.
-  CadElement widened(CadElement triangle) const {
-    const Vector2 middle = (triangle.parameters[0] + triangle.parameters[1] + triangle.parameters[2]) / 3;
-    for (Vector2& corner : triangle.parameters) {
-      corner += 0.5 * (corner - middle);
-      if (!face_.domain.isEverywhere()) corner = corner.cwiseMax(face_.domain.low()).cwiseMin(face_.domain.high());
+  /// The same triangle, large enough to cover what a chord cuts off beside it, in pieces: without what lies beyond the
+  /// box about the borders, where a spline is nothing that anybody meant.
+  std::vector<CadElement> widened(const CadElement& triangle) const {
+    const auto& [a, b, c] = triangle.parameters;
+    const Vector2 middle = (a + b + c) / 3;
+    std::vector<Vector2> polygon;
+    for (const Vector2& corner : triangle.parameters)
+      polygon.push_back(corner + 0.5 * (corner - middle));
+    if (!face_.domain.isEverywhere()) {
+      const Vector2 low = face_.domain.low().cwiseMin(a).cwiseMin(b).cwiseMin(c);
+      const Vector2 high = face_.domain.high().cwiseMax(a).cwiseMax(b).cwiseMax(c);
+      for (Eigen::Index k = 0; k < 2; ++k) {
+        polygon = cut(polygon, [&](const Vector2& p) { return p[k] - low[k]; });
+        polygon = cut(polygon, [&](const Vector2& p) { return high[k] - p[k]; });
+      }
     }
-    return triangle;
+    std::vector<CadElement> pieces;
+    for (std::size_t i = 2; i < polygon.size(); ++i) {
+      pieces.push_back(triangle);
+      pieces.back().parameters = {polygon[0], polygon[i - 1], polygon[i]};
+    }
+    return pieces;
+  }
+
+  /// The part of a convex polygon where `height`, which is linear, is not negative.
+  template <class Height>
+  static std::vector<Vector2> cut(const std::vector<Vector2>& polygon, const Height& height) {
+    std::vector<Vector2> part;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Vector2 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+      const double from = height(p), to = height(q);
+      if (from >= 0) part.push_back(p);
+      if ((from < 0) != (to < 0)) part.emplace_back(p + from / (from - to) * (q - p));
+    }
+    return part;
   }
 
   std::array<CadElement, 4> quarters(const CadElement& t) const {
@@ -340,6 +389,7 @@ private:
   }
 
   bool project(const Vector3& p, double extent, double& t) const {
+    Settling settling(1e-11);
     for (int i = 0; i < 30; ++i) {
       const auto [c, d1, d2] = evaluateCurve(t);
       const Vector3 w = p - c;
@@ -348,7 +398,7 @@ private:
       if (curvature <= 0) return false;
       const double step = std::clamp(w.dot(d1) / curvature, -extent, extent);
       t += step;
-      if (std::abs(step) * d1.norm() < 1e-11) return true;
+      if (settling.after(std::abs(step) * d1.norm())) return true;
     }
     return false;
   }
@@ -393,6 +443,7 @@ private:
 
   /// Newton's method for the place where the ball touches the curve.
   bool solve(double extent, double& at, double& when) const {
+    Settling settling(1e-12);
     for (int i = 0; i < 25; ++i) {
       const auto [c, d1, d2] = evaluateCurve(at);
       const Vector3 w = way_.at(when) - c;
@@ -406,7 +457,8 @@ private:
           {1.0, extent / std::max(std::abs(step.x()), 1e-300), radius_ / std::max(std::abs(step.y()), 1e-300)});
       at += scale * step.x();
       when += scale * step.y();
-      if (std::abs(step.y()) < 1e-12 && std::abs(step.x()) * d1.norm() < 1e-9) return true;
+      const bool still = settling.after(std::abs(step.y()));
+      if (still && std::abs(step.x()) * d1.norm() < 1e-9) return true;
     }
     return false;
   }
