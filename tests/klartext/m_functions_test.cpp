@@ -7,6 +7,7 @@
 #include "klartext/expectations.hpp"
 #include "klartext/host_world.hpp"
 #include "language/klartext/m_functions.hpp"
+#include "machine/machine_file.hpp"
 
 namespace probewright::language::klartext::testing {
 
@@ -125,6 +126,19 @@ TEST(MFunctions, OfStraightLinesAreRefusedInOtherBlocks) {
   World straight;
   expectFinished(straight.run("L X+5 R0 FMAX M91\nX+7 R0 FMAX M92\n"));
   EXPECT_EQ(straight.machine->steps.back().axes[0], 7 + straight.machine->description().toolChange[0]);
+}
+
+TEST(MFunctions, M92CountsFromWhereToolsAreChanged) {
+  auto description = machine::readMachine("mill3");
+  ASSERT_TRUE(description) << format(description.error());
+  description->toolChange[0] = 40;
+  description->toolChange[2] = -60;
+  World world(*description);
+  expectFinished(world.run("L X+7 Z-5 R0 FMAX M92\nL IX+1 R0 FMAX M92\n"));
+  ASSERT_EQ(world.machine->steps.size(), 2U);
+  EXPECT_EQ(world.machine->steps[0].axes[0], 47);
+  EXPECT_EQ(world.machine->steps[0].axes[2], -65);
+  EXPECT_EQ(world.machine->steps[1].axes[0], 48);
 }
 
 TEST(MFunctions, M144CountsTiltedAxesInAndMovesNothingByItself) {

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -145,6 +146,19 @@ TEST(Mistakes, OfFunctionsAndFormulas) {
               {"Q1 = \"A\"", "Wrong data type: A Q parameter takes a number, not a text"},
               {"QS1 = 5", "Wrong data type: QS1 takes a text, not a number"},
               {"Q1 = TONUMB( SRC_\"abc\" )", "String is not a number: TONUMB cannot read \"abc\" as a number"}});
+}
+
+/// Only a division has a divisor: 0 stands in any other operation.
+TEST(Mistakes, OfDivisorsOnly) {
+  for (const char* formula : {"Q1 = Q2 + 0", "Q1 = Q2 - 0", "Q1 = Q2 * 0", "Q1 = Q2 ^ 0", "FN 1: Q1 = +Q2 + +0",
+                              "FN 2: Q1 = +Q2 - +0", "FN 3: Q1 = +Q2 * +0"}) {
+    KlartextProgram program("a.h", fmt::format("BEGIN PGM A MM\n1 {}\nEND PGM A MM\n", formula));
+    EXPECT_EQ(checkProgram(program, control::ControlKind::TNC640).size(), 0U) << formula;
+  }
+  for (const char* formula : {"Q1 = Q2 / 0", "Q1 = Q2 % 0", "FN 4: Q1 = +Q2 DIV +0"}) {
+    KlartextProgram program("a.h", fmt::format("BEGIN PGM A MM\n1 {}\nEND PGM A MM\n", formula));
+    EXPECT_EQ(checkProgram(program, control::ControlKind::TNC640).size(), 1U) << formula;
+  }
 }
 
 /// What is refused in a run is refused by the check, with a place, in both languages.

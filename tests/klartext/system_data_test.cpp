@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -158,6 +159,31 @@ TEST(SystemData, ReadingOfARotaryAxisWithoutWholeTurns) {
   EXPECT_NEAR(world.q(1), 730, 1e-9);
   EXPECT_NEAR(world.q(2), 10, 1e-9);
   EXPECT_NEAR(world.q(3), 20, 1e-9);
+}
+
+/// ID 360 NR 2 reads the machine's axes at the last touch, with the whole turns and the offset of a rotary axis.
+TEST(SystemData, AxesOfTheLastTouch) {
+  World world("mill5-head-table");
+  const auto c = world.machine->description().axisIndex("C");
+  ASSERT_TRUE(c);
+  control::TouchRecord touch;
+  touch.outcome = "touched";
+  touch.surface = {1, 2, 3};
+  touch.latched[0] = 11;
+  touch.latched[1] = -12;
+  touch.latched[2] = -130.5;
+  touch.latched[*c] = 400;
+  world.control->journal.cycles.emplace_back().touches = {touch};
+  expectFinished(
+      world.run("FN 18: SYSREAD Q1 = ID360 NR2 IDX1\nFN 18: SYSREAD Q2 = ID360 NR2 IDX2\n"
+                "FN 18: SYSREAD Q3 = ID360 NR2 IDX3\nFN 18: SYSREAD Q6 = ID360 NR2 IDX6\n"
+                "FN 18: SYSREAD Q11 = ID360 NR1 IDX1\n"));
+  EXPECT_EQ(world.q(1), 11);
+  EXPECT_EQ(world.q(2), -12);
+  EXPECT_EQ(world.q(3), -130.5);
+  EXPECT_EQ(world.q(6), 400);
+  EXPECT_EQ(world.q(11), 1);
+  EXPECT_THAT(messageOf(world.run("FN 18: SYSREAD Q1 = ID360 NR2 IDX7\n")), HasSubstr("ID360")) << "no axis U";
 }
 
 TEST(SystemData, WhatTheControlDoesNotHaveIsRefused) {
