@@ -70,6 +70,33 @@ TEST(ConvertPromises, TellsThatTheCentreIsJudgedByTheProgram) {
   }
 }
 
+/// The program judges each coordinate of a bolt circle that has a tolerance, and no other.
+TEST(ConvertPromises, JudgesTheCentreOfABoltCircle) {
+  const auto inspected = [](double centre1, double centre2) {
+    return toSinumerik(klartextProgram(probe(430, {{273, 0},
+                                                   {274, 0},
+                                                   {262, 80},
+                                                   {291, 0},
+                                                   {292, 120},
+                                                   {293, 240},
+                                                   {261, -8},
+                                                   {260, 30},
+                                                   {288, 0},
+                                                   {289, 0},
+                                                   {279, centre1},
+                                                   {280, centre2},
+                                                   {281, 0},
+                                                   {309, 1},
+                                                   {330, 0}})))
+        .text;
+  };
+  EXPECT_THAT(inspected(0.4, 0), HasSubstr(">0.4)"));
+  EXPECT_THAT(inspected(0.4, 0), Not(HasSubstr(">0)")));
+  EXPECT_THAT(inspected(0, 0.3), HasSubstr(">0.3)"));
+  EXPECT_THAT(inspected(0, 0.3), Not(HasSubstr(">0)")));
+  EXPECT_THAT(inspected(0, 0), Not(HasSubstr("ABS(")));
+}
+
 /// CYCLE998 takes a required angle up to 45 degrees, that one with it.
 TEST(ConvertPromises, AlignsEdgesByUpTo45Degrees) {
   for (const auto& [angle, carried] : {std::pair(45.0, true), {-45.0, true}, {45.001, false}, {-45.001, false}}) {
@@ -183,6 +210,11 @@ TEST(ConvertPromises, CountsShiftsIntoTouchProbeCycles) {
     EXPECT_TRUE(sameEnd(original, there));
     EXPECT_TRUE(sameOrigin(original, there));
   }
+  // The first touch of the hole lies in the direction of the turned axis, and so it does without the rotation.
+  const conversion::Conversion hole = toKlartext(sinumerikProgram(
+      "ROT Z20\n" +
+      sinumerikCall("CYCLE977", {{"S_MVAR", 1}, {"S_SETV", 40}, {"S_STA1", 15}, {"S_FA", 4}, {"S_TSA", 8}})));
+  EXPECT_THAT(hole.text, HasSubstr("Q325=+35 "));
   // A pocket along turned axes has no touch probe cycle.
   const conversion::Conversion pocket = toKlartext(sinumerikProgram(
       "ROT Z5\n" +

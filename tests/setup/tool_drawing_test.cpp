@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 /// How reports draw cutters.
 namespace probewright::setup {
 namespace {
@@ -49,6 +52,30 @@ TEST(ToolDrawing, DrawsRunOutWearAndWhatHasBrokenOffATooth) {
   const reports::Mesh broken = drawnTool(mill);
   for (std::size_t i = 0; i + body < broken.featureEdges.size(); ++i)
     EXPECT_GE(broken.featureEdges[i].z(), 6 - 1e-5F);
+}
+
+/// The edges of an insert run along X and Z through its theoretical tip, which is the origin: the nose touches both.
+TEST(ToolDrawing, DrawsBothEdgesOfAnInsertAndItsNose) {
+  simulation::TrueTool tool = straightMill();
+  tool.radius = 12;
+  tool.cutter.insert =
+      simulation::TrueInsert{.noseRadius = 0.8, .firstNormal = -90, .secondNormal = 0, .edgeLength = 10};
+  for (const double orientation : {0.0, 90.0}) {
+    tool.cutter.insert->orientation = orientation;
+    const reports::Mesh mesh = drawnTool(tool);
+    const auto at = [&](float x, float z) {
+      return orientation == 0 ? reports::Vector3f(x, 0, z) : reports::Vector3f(0, x, z);
+    };
+    const auto draws = [&](const reports::Vector3f& point) {
+      return std::ranges::any_of(mesh.featureEdges, [&](const auto& each) { return (each - point).norm() < 1e-4F; });
+    };
+    EXPECT_LT((mesh.featureEdges.front() - at(-10.8F, 0)).norm(), 1e-4F) << "the end of the edge along X";
+    EXPECT_TRUE(draws(at(-0.8F, 0))) << "there the nose begins";
+    const float middle = -0.8F + 0.8F * std::sqrt(0.5F);
+    EXPECT_TRUE(draws(at(middle, -middle)));
+    EXPECT_TRUE(draws(at(0, 0.8F))) << "there it ends";
+    EXPECT_TRUE(draws(at(0, 10.8F))) << "the end of the edge along Z";
+  }
 }
 
 }  // namespace

@@ -1,0 +1,28 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "survival/survival_records.hpp"
+
+namespace probewright::survival {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// The page lists the clampings that fail, each with its values, its seed and where and why the program stopped.
+TEST(SurvivalPage, ListsTheClampingsThatFailIfThereAreAny) {
+  const SurvivalInfo info{.program = "P.H", .setup = "plate.toml", .version = "1", .text = "0 BEGIN PGM P MM\n"};
+  Survival survival;
+  EXPECT_THAT(survivalPage(survival, info), Not(HasSubstr("Clampings that fail")));
+  survival.failures = {{.sample = 4,
+                        .values = {0.25, -1.5},
+                        .noise = 77,
+                        .reason = {.why = "no contact <X>", .place = {.file = "P.H", .line = 3, .column = 1}}}};
+  const std::string page = survivalPage(survival, info);
+  EXPECT_THAT(page, HasSubstr("Clampings that fail"));
+  EXPECT_THAT(page, HasSubstr("<tr><td>0.2500</td><td>-1.5000</td><td>77</td><td>3</td>"
+                              "<td class=\"t\">no contact &lt;X&gt;</td></tr>"));
+}
+
+}  // namespace
+}  // namespace probewright::survival
