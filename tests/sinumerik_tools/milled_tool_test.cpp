@@ -201,6 +201,21 @@ TEST(MeasureMilledTool, GeometryOrWear) {
   EXPECT_EQ(experienced.ovi(7), 4);
 }
 
+/// A probe that may be touched in the minus directions only has no other trigger points.
+TEST(MeasureMilledTool, AtAProbeWithTriggerPointsInMinusDirectionsOnly) {
+  ToolBench bench;
+  bench.disc(20);
+  bench.add(2, 80.2, 6);
+  bench.believed(2).length = 80;
+  bench.believed(2).radius = 6.1;
+  bench.datum("$SNS_MEA_TP_AX_DIR_AUTO_CAL[0]", 111);
+  for (const int axis : {1, 2})
+    bench.datum(fmt::format("$SNS_MEA_TP_TRIG_PLUS_DIR_AX{}[0]", axis), 0);
+  EXPECT_NEAR(bench.measure(above, with(usual, {{"S_MVAR", 1}, {"S_MA", 3}})).ovr(8), 80.2, 1e-5);
+  const ToolRun wide = bench.measure({45, 3, 25}, with(usual, {{"S_MVAR", 1}, {"S_MA", 1}, {"S_MD", 0}}));
+  EXPECT_NEAR(wide.written("$TC_DP6[2,1]"), 6, 1e-5);
+}
+
 TEST(MeasureMilledTool, LimitsDecideWhatIsCorrected) {
   ToolBench bench;
   bench.disc(20);

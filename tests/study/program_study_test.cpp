@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -83,6 +84,24 @@ truth = "part.feature[2].diameter"
   EXPECT_EQ(found.risks->producer, 0);
   EXPECT_LT(found.risks->accepted, 40U);
   EXPECT_GT(found.risks->accepted, 5U);
+}
+
+/// Parts whose size varies are built anew in each trial; where they lie changes nothing about them.
+TEST(ProgramStudy, KnowsThePartsThatItBuildsAnew) {
+  const auto rebuilt = [](const std::string& quantity) {
+    const TestFolder folder;
+    Diagnostics mistakes;
+    auto document = setup::SetupDocument::parse(plateSetup(""), "setup.toml", mistakes);
+    const auto study = parseStudy("trials = 2\n[[source]]\nquantity = \"" + quantity +
+                                      "\"\ndistribution = \"normal\"\nstandard_deviation = 0.1\n",
+                                  "study.toml", document->table(), mistakes);
+    const auto model =
+        study ? ProgramModel::make(folder.file("p.h", program(bore(3, 4))), std::move(*document), *study, {}, mistakes)
+              : nullptr;
+    return model ? model->rebuilt() : std::vector<std::string>{"no model"};
+  };
+  EXPECT_EQ(rebuilt("part.feature[2].diameter"), std::vector<std::string>{"plate"});
+  EXPECT_EQ(rebuilt("part.pose.x"), std::vector<std::string>{});
 }
 
 TEST(ProgramStudy, CountsAlarmsAndSaysWhereTheyCame) {

@@ -196,6 +196,12 @@ TEST(TrialSums, KeepTrialsThatDoNotFit) {
   EXPECT_EQ(found.values(0, 0.9).maximum, 1e9);
   EXPECT_EQ(found.values(0, 0.9).count, 1000U);
   EXPECT_NEAR(found.values(0, 0.9).mean, 1e6 + 30 * 0.999, 1);
+  // Also where the error of what does not fit is as small as any.
+  world.truth[900] = 1e9;
+  const TrialSummary right = sumOf(world, grid, 0, 1000);
+  const Findings both(right, nothing);
+  EXPECT_EQ(both.values(0, 0.9).maximum, 1e9);
+  EXPECT_NEAR(both.values(0, 0.9).mean, 1e6 + 30 * 0.999, 1);
   Outcome more = world.outcome(1000);
   more.observations.back().of.key = "new";
   sum.add(1000, more);
