@@ -79,12 +79,12 @@ constexpr control::ResultKind attainedBy(std::uint8_t axis) {
 }
 
 inline constexpr ResultDefinition kinematics[] = {
-    {"Q141", {"measured ", "standard deviation of A; -1: not measured"}, scatterOf(1).main()},
-    {"Q142", {"measured ", "standard deviation of B; -1: not measured"}, scatterOf(2).main()},
-    {"Q143", {"measured ", "standard deviation of C; -1: not measured"}, scatterOf(3).main()},
-    {"Q144", {"optimised ", "standard deviation of A; -1: not optimised"}, attainedBy(1).main()},
-    {"Q145", {"optimised ", "standard deviation of B; -1: not optimised"}, attainedBy(2).main()},
-    {"Q146", {"optimised ", "standard deviation of C; -1: not optimised"}, attainedBy(3).main()},
+    {"Q141", "measured standard deviation of A; -1: not measured", scatterOf(1).main()},
+    {"Q142", "measured standard deviation of B; -1: not measured", scatterOf(2).main()},
+    {"Q143", "measured standard deviation of C; -1: not measured", scatterOf(3).main()},
+    {"Q144", "optimised standard deviation of A; -1: not optimised", attainedBy(1).main()},
+    {"Q145", "optimised standard deviation of B; -1: not optimised", attainedBy(2).main()},
+    {"Q146", "optimised standard deviation of C; -1: not optimised", attainedBy(3).main()},
     {"Q147", {"offset error, ", "X"}, result::difference(of::positionX)},
     {"Q148", {"offset error, ", "Y"}, result::difference(of::positionY)},
     {"Q149", {"offset error, ", "Z"}, result::difference(of::positionZ)},
