@@ -24,6 +24,7 @@ namespace probewright::simulation {
 namespace {
 
 constexpr double kLeastGrowth = 1e-6;
+constexpr double kBesideBorders = 1.5;  // deflections, from a bent edge to its chords
 
 /// The ends of the parts of an edge that have no kink.
 std::vector<double> smoothParts(const CadEdge& edge) {
@@ -70,7 +71,7 @@ std::vector<CadElement> gridElements(const CadFace& exact, std::uint32_t owner, 
       element.corners[k] = vector(exact.surface->Value(element.parameters[k].x(), element.parameters[k].y()));
     }
     element.onFace = exact.domain.contains((cell[0] + cell[1] + cell[2]) / 3);
-    element.growth = kLeastGrowth + 1.5 * deviationOf(element, surface);
+    element.growth = kLeastGrowth + kDeviationSafety * deviationOf(element, surface);
     elements.push_back(element);
   }
   return elements;
@@ -226,7 +227,7 @@ double deviationOf(const CadElement& element, const Adaptor3d_Surface& surface) 
   return sampledDeviation(element, surface);
 }
 
-double growthBesideBorders(double deflection) { return 1.5 * 1.5 * deflection + kLeastGrowth; }
+double growthBesideBorders(double deflection) { return kDeviationSafety * kBesideBorders * deflection + kLeastGrowth; }
 
 std::vector<CadElement> faceElements(const CadFace& exact, const TopoDS_Face& face, std::uint32_t owner,
                                      double deflection) {
@@ -255,7 +256,8 @@ std::vector<CadElement> faceElements(const CadFace& exact, const TopoDS_Face& fa
     area += areaInParameters(element);
     const double deviation = flat ? distanceFrom(exact.forms.sheets.front(), element) : deviations.of(element);
     // Between a bent border and its chord no triangle lies.
-    element.growth = std::max(kLeastGrowth + 1.5 * deviation, straight ? 0.0 : growthBesideBorders(deflection));
+    element.growth =
+        std::max(kLeastGrowth + kDeviationSafety * deviation, straight ? 0.0 : growthBesideBorders(deflection));
     elements.push_back(element);
   };
   for (int i = 1; i <= mesh->NbTriangles(); ++i) {

@@ -60,6 +60,10 @@ struct CadModel {
   double deflection = 0.01;
 };
 
+/// The samples of deviationOf may miss the place where the surface leaves the triangle most: it is counted so many
+/// times.
+inline constexpr double kDeviationSafety = 1.5;
+
 /// How far the surface leaves the triangle of an element, sampled.
 double deviationOf(const CadElement& element, const Geom_Surface& surface);
 /// The same of a face's own adaptor, which is quicker for places near each other.

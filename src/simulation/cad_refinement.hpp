@@ -10,8 +10,6 @@ namespace probewright::simulation {
 namespace detail {
 
 inline constexpr int kMostHalvings = 6;
-/// The samples may miss the place where the surface leaves the triangle most.
-inline constexpr double kSafety = 1.5;
 
 template <class Surface, class IsNear, class Visit>
 void visitParts(CadElement& element, const Surface& surface, double limit, double beside, int halvings,
@@ -42,7 +40,7 @@ template <class Surface, class IsNear, class Visit>
 void visitParts(CadElement& element, const Surface& surface, double limit, double beside, int halvings,
                 const IsNear& isNear, const Visit& visit) {
   const double deviation = deviationOf(element, surface);
-  element.growth = std::max(kSafety * deviation, beside);
+  element.growth = std::max(kDeviationSafety * deviation, beside);
   if (!isNear(element)) return;
   if (deviation <= limit || halvings == kMostHalvings) return visit(element);
   visitQuarters(element, surface, limit, beside, halvings, isNear, visit);
@@ -77,7 +75,7 @@ template <class IsNear, class Visit>
 void visitForBall(const CadModel& model, const CadElement& element, const IsNear& isNear, const Visit& visit) {
   constexpr double kEnough = 30;  // deflections
   const double limit = kEnough * model.deflection;
-  if (element.growth <= detail::kSafety * limit) return visit(element);
+  if (element.growth <= kDeviationSafety * limit) return visit(element);
   detail::visitQuarters(element, *model.faces[element.owner].surface, limit, growthBesideBorders(model.deflection), 0,
                         isNear, visit);
 }

@@ -209,7 +209,8 @@ TEST(SinumerikCheck, KnowsWhatForbidsAMeasuringCycle) {
   EXPECT_EQ(onMill("MIRROR X0\nAMIRROR X0"), "");
   EXPECT_EQ(onMill("MIRROR X0\nMIRROR"), "");
   EXPECT_EQ(told("MIRROR X0\n" + cycle), "") << "counter-spindles of lathes may be mirrored";
-  for (const char* harmless : {"SCALE X1", "SCALE X2\nSCALE", "SCALE X2\nTRANS X5", "ASCALE X=R1"})
+  for (const char* harmless :
+       {"SCALE X1", "SCALE X2\nSCALE", "SCALE X2\nTRANS X5", "ASCALE X=R1", "SCALE X2\nASCALE X0.5"})
     EXPECT_EQ(told(std::string(harmless) + "\n" + cycle), "") << harmless;
   for (const char* unknown :
        {"G41 X5\nIF R1==1\nG40\nENDIF", "IF R1==1 GOTOF NEXT_1\nG41\nNEXT_1:", "G41 X5\n/G40", "G41 X5\nCALL R2"})

@@ -35,9 +35,9 @@ void Checker::followState(const Instruction& instruction) {
   } else if (const auto* change = std::get_if<Transform>(&instruction)) {
     const std::string_view name = block_.at(change->name);
     const bool more = name.starts_with('A');
-    state_.scaled = (more && state_.scaled) || ((name == "SCALE" || name == "ASCALE") && scales(block_, *change));
-    const bool mirrors = name == "MIRROR" || name == "AMIRROR";
-    // Mirrored twice: only the run knows which axes still are.
+    // Scaled or mirrored twice: only the run knows what is left of it.
+    const bool scale = name == "SCALE" || name == "ASCALE", mirrors = name == "MIRROR" || name == "AMIRROR";
+    state_.scaled = scale ? scales(block_, *change) && !(more && state_.scaled) : more && state_.scaled;
     state_.mirrored = mirrors ? change->words.count > 0 && !(more && state_.mirrored) : more && state_.mirrored;
   } else if (const auto* command = std::get_if<Command>(&instruction)) {
     if (block_.at(command->name) == "G") state_ = {};  // G[7]=1
