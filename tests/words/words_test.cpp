@@ -401,6 +401,8 @@ TEST(Words, StandardDeviationsOfRotaryAxesSayTheirAxis) {
         const std::size_t at = english.find("standard deviation of ");
         if (at == std::string::npos) continue;
         ++checked;
+        const std::string label(result.meaning.label);
+        EXPECT_EQ(label, english) << "measured or attainable: two rows of a report differ by it";
         const std::string axis = english.substr(at + std::string("standard deviation of ").size(), 1);
         static const std::map<DialogLanguage, std::string> words = {{DialogLanguage::German, "Standardabweichung"},
                                                                     {DialogLanguage::Russian, "среднеквадратическое"},
@@ -408,8 +410,8 @@ TEST(Words, StandardDeviationsOfRotaryAxesSayTheirAxis) {
                                                                     {DialogLanguage::Chinese, "标准偏差"},
                                                                     {DialogLanguage::Polish, "odchylenie standardowe"}};
         for (const auto& [language, word] : words) {
-          for (const std::string& text : {meaning(language, result.kind, english),
-                                          characteristic(language, result.kind.of, english.substr(at))}) {
+          for (const std::string& text :
+               {meaning(language, result.kind, english), characteristic(language, result.kind.of, label)}) {
             EXPECT_NE(text.find(word), std::string::npos) << text;
             EXPECT_NE(text.find(axis), std::string::npos) << text;
             EXPECT_NE(text.find("-1"), std::string::npos) << text;
