@@ -143,6 +143,15 @@ TEST(ConvertMotion, KnowsTheStructuresOfSinumerik) {
       "R1=ATAN2(3,4)\nR2=ROUND(2.6)+TRUNC(3.7)+POT(2)\nGOTOF EE1\nR2=0\nEE1:\nG0 X=R1 Y=R2\n"));
 }
 
+/// A block before or after the repetition, again and again, and nothing of the blocks between.
+TEST(ConvertMotion, RepeatsSingleBlocks) {
+  for (const char* repetition : {"REPEATB AA1 P2", "REPEATB AA1 P=5", "REPEATB AA1", "REPEAT AA1 AA1 P2"}) {
+    const std::string block = "AA1: G0 X=IC(2) Z=IC(-1)\n", between = "G0 Y=IC(3)\n", here = repetition;
+    EXPECT_TRUE(drivesTheSameFromSinumerik("G0 X0 Y0\n" + block + between + here + "\n" + between)) << here;
+    EXPECT_TRUE(drivesTheSameFromSinumerik("G0 X0 Y0\n" + here + "\n" + between + block + between)) << here;
+  }
+}
+
 TEST(ConvertMotion, KeepsInches) {
   EXPECT_TRUE(
       driveTheSame("BEGIN PGM BENCH INCH\nTOOL CALL 1 Z\nL Z+4 R0 FMAX\nL X+1.5 Y-0.5 FMAX\nEND PGM BENCH INCH\n",

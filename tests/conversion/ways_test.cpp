@@ -31,5 +31,20 @@ TEST(ConversionWays, NameTheLinesOfTheProgramWhereTheyLeadOverAThirdLanguage) {
   EXPECT_NE(conversion.text.find("X1 Y2"), std::string::npos) << conversion.text;
 }
 
+/// So is what stands in the first line after the beginning, or in the last one of a program without an end.
+TEST(ConversionWays, NameTheFirstLineAndTheLastOne) {
+  const std::string begin = "%A G71 *\n", lost = "N30 D18 Q1 ID350 NR50 IDX1 *\n", fine = "N20 G01 X+1 F500 *\n";
+  const std::pair<std::string, std::uint64_t> programs[] = {
+      {begin + lost + fine, 2}, {begin + fine + fine + lost, 4}, {begin + lost, 2}};
+  for (const auto& [text, line] : programs) {
+    const auto program = language::programFromText("a.i", text, ProgramLanguage::DinIso);
+    const auto conversion = conversion::convert(*program, ProgramLanguage::DinIso, ProgramLanguage::Sinumerik);
+    ASSERT_TRUE(conversion.mistakes.empty()) << format(conversion.mistakes.front());
+    ASSERT_EQ(conversion.notCarriedOver.size(), 1U) << text;
+    EXPECT_EQ(conversion.notCarriedOver.front().place.line, line) << text;
+    EXPECT_EQ(conversion.notCarriedOver.front().excerpt + "\n", lost) << text;
+  }
+}
+
 }  // namespace
 }  // namespace probewright
