@@ -212,6 +212,30 @@ TEST(Cycle601, MarksAnImageAsOneThingOnly) {
   EXPECT_EQ(inactive, 2);
 }
 
+/// What the reference images show is no error; when one of them is none any more, the others are compared anew.
+TEST(Cycle601, ComparesAnewWhenAReferenceImageGoesOrComes) {
+  CameraBench bench;
+  const Taught taught(bench);
+  bench.put("forgotten clamp", SolidRole::Fixture, {box({40, 16, 12})}, {-20, 20, plateTop});
+  const auto operated = [&](const std::string& question, const std::string& keys, int references = 10) {
+    bench.answers({{question, keys}});
+    Ran ran = bench.run(local(1, references));
+    EXPECT_TRUE(ran.finished()) << ran.why();
+    return ran;
+  };
+  EXPECT_THAT(lastFound(operated("601 OS error", "BACK")), Not(IsEmpty()));
+  const Ran more = operated("601 OS error", "REFERENCE IMAGE; REPEAT; BACK");
+  EXPECT_THAT(lastFound(more), IsEmpty()) << "it has come";
+  RunFolder folder;
+  folder.keep(more);
+  bench.setup.beliefs.tables = folder.path();
+  EXPECT_THAT(lastFound(operated("601 OS", "BACK", 12)), IsEmpty());
+  EXPECT_THAT(lastFound(operated("601 OS", "SELECT IMAGE 11; REFERENCE IMAGE; BACK", 12)), Not(IsEmpty()))
+      << "its mark is gone";
+  EXPECT_THAT(lastFound(operated("601 OS", "SELECT IMAGE 11; DELETE IMAGE; BACK", 12)), Not(IsEmpty())) << "it is gone";
+  EXPECT_THAT(lastFound(operated("601 OS", "SELECT IMAGE 12; DELETE IMAGE; BACK", 12)), IsEmpty()) << "another is gone";
+}
+
 TEST(Cycle601, KeepsNewSettingsOnlyWhenTheyAreConfirmed) {
   CameraBench bench;
   const Taught taught(bench);

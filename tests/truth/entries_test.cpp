@@ -357,6 +357,22 @@ phase = 50
   ASSERT_TRUE(rough.finished()) << rough.why();
   EXPECT_GT(*entry(rough, "MACHINE.KCO").distance, 0.0015);
   EXPECT_LT(*entry(rough, "MACHINE.KCO").distance, 0.02);
+  // What all positions have in common is left out: on the table, which C turns, what is left has no mean.
+  const records::EntryTruth& left = entry(rough, "MACHINE.KCO");
+  Vector3 sum = Vector3::Zero();
+  double first = 0;
+  ASSERT_EQ(left.values.size(), 3 * b.size() * c.size());
+  for (std::size_t row = 0; row < b.size() * c.size(); ++row) {
+    Vector3 off;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const records::EntryValue& value = left.values[3 * row + axis];
+      off[static_cast<Eigen::Index>(axis)] = value.truth - value.value;
+    }
+    if (row == 0) first = off.norm();
+    sum += rotation(-Vector3::UnitZ(), c[row % c.size()]).inverse() * off;
+  }
+  EXPECT_GT(first, 1e-4);
+  EXPECT_LT(sum.norm(), 0.01 * first) << sum.transpose();
 }
 
 /// A setup with a mill of 16 and a round contact.
