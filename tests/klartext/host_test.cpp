@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -238,6 +239,27 @@ TEST(Host, CompensatedArcsKeepTheirDistance) {
     EXPECT_NEAR(path[i].norm(), 35, 1e-9);
   EXPECT_EQ(world.run("TOOL CALL 5 Z\nL X+4 Y-10 Z+0 R0 F100\nL X+3 Y+0 RL\nCC X+0 Y+0\nC X+3 Y+0 DR+\nL X+4 R0").end,
             RunEnd::Alarm);
+}
+
+/// An arc that ends the compensation runs on the circle of its block, in both directions and on both sides.
+TEST(Host, ArcsWithoutRadiusCompensationRunOnTheirCircle) {
+  for (const char* side : {"RL", "RR"}) {
+    for (const double sense : {1.0, -1.0}) {
+      World world;
+      expectFinished(
+          world.run(fmt::format("TOOL CALL 5 Z\nL X-20 Y+0 Z+0 R0 F100\nL X+0 {}\nL X+30\nCC X+30 Y{:+}\n"
+                                "C X+50 Y{:+} DR{} R0",
+                                side, 20 * sense, 20 * sense, sense > 0 ? "+" : "-")));
+      const auto path = world.path();
+      const double beside = side == std::string_view("RL") ? 5 : -5;
+      const auto end = std::ranges::find_if(path, [&](const Vector3& p) { return near(p, {30, beside, 0}); });
+      ASSERT_NE(end, path.end()) << "the compensated line";
+      ASSERT_GT(path.end() - end, 10);
+      for (auto at = end + 1; at != path.end(); ++at)
+        EXPECT_NEAR((*at - Vector3(30, 20 * sense, 0)).norm(), 20, 1e-9) << side << sense;
+      EXPECT_TRUE(near(path.back(), {50, 20 * sense, 0}));
+    }
+  }
 }
 
 TEST(Host, ApproachAndDepartureAreTangential) {

@@ -21,10 +21,10 @@ protected:
     control::sinumerik::setMaskBit(bench.control.data, mask, bit, value);
   }
   /// Measures length 2, which the control has wrong by 0.2; how it ends.
-  std::string measure(const char* limits = "1") {
+  std::string measure(const char* limits = "1", double path = 5) {
     bench.set("$TC_DP4", {5, 1}, 40.2);
     from_ = bench.machine.path().points.size();
-    const auto result = bench.tryRun(measuring(5, startOf(3), fmt::format("CYCLE982(1,0,1,1,,,5,{})", limits)));
+    const auto result = bench.tryRun(measuring(5, startOf(3), fmt::format("CYCLE982(1,0,1,1,,,{},{})", path, limits)));
     return result.diagnostics.empty() ? std::string() : result.diagnostics.front().code;
   }
   /// True if a piece of path of this kind was travelled at this feed, mm/min.
@@ -82,6 +82,15 @@ TEST_F(SteeredTool, Bit18ApproachesFast) {
   EXPECT_TRUE(travelled(PathKind::Measure, 600));
   EXPECT_TRUE(travelled(PathKind::Measure, 300, 1.5));
   EXPECT_NEAR(bench.data("$TC_DP4", {5, 1}), 40, 1e-6);
+}
+
+TEST_F(SteeredTool, Bit18ApproachesNotFastOnTheWayOfAMillimetre) {
+  setBit("$SCS_MEA_FUNCTION_MASK", 18, true);
+  for (const auto& [path, touches] : {std::pair(1.0, 1), std::pair(1.01, 2)}) {
+    EXPECT_EQ(measure("1", path), "");
+    EXPECT_EQ(countOf(PathKind::Measure), touches) << path;
+    EXPECT_NEAR(bench.data("$TC_DP4", {5, 1}), 40, 1e-6) << path;
+  }
 }
 
 TEST_F(SteeredTool, Bit19RetractsAtReducedRapid) {
