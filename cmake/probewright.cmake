@@ -115,8 +115,8 @@ function(probewright_merge variable name count)
   set(${variable} ${groups} ${single} PARENT_SCOPE)
 endfunction()
 
-# Only some folders compute for long: contact, fits, pictures. The others read, decide and write; the compiler's first level is
-# enough for them and takes two thirds of the time.
+# Only some folders compute for long: contact, fits, frames, pictures. The others read, decide and write; the compiler's first level is
+# enough for them and takes three quarters of the time.
 set(PROBEWRIGHT_READING_OPTIONS $<$<CONFIG:Release>:-O1>)
 
 # probewright_library(NAME [COMPUTES] [LINK targets...] [PRECOMPILED kind]): a static library of all .cpp files below the calling
