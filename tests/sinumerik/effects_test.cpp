@@ -29,6 +29,7 @@ TEST(SinumerikEffects, WhatIsNotCarriedOutIsNamedOnceAndRefusedUnderStrict) {
       {"PTP", "PTP"},
       {"TOWMCS", "TOWMCS"},
       {"G7", "G7"},
+      {"G74 X1=0 Z1=0", "G74"},
       {"G810", "G810"},
       {"G[25]=2", "G[25]=2"},
       {"G75 FP=2 X1=0", "FP=2"},

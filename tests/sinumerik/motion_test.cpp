@@ -129,6 +129,45 @@ TEST(SinumerikMotion, DiametersAndRadiiByTheWordItself) {
   EXPECT_EQ(world.alarm("X=DAC(\"A\")\n"), "12150");
 }
 
+/// A feed stays while its kind does: a time, per minute or per revolution.
+TEST(SinumerikMotion, KeepsTheFeedWhileItsKindStays) {
+  const std::pair<int, int> kinds[] = {{93, 0}, {94, 1}, {961, 1}, {971, 1}, {95, 2}, {96, 2}, {97, 2}};
+  for (const auto& [from, kind] : kinds) {
+    for (const auto& [to, other] : kinds) {
+      World world("lathe2c");
+      world.run(fmt::format("G0 X80 Z5\nG{} S100 M4 F0.2\nG{} S100\n", from, to));
+      EXPECT_EQ(world.host.motionState().feed, kind == other ? 0.2 : 0) << from << " " << to;
+    }
+    for (const int keeps : {962, 972}) {
+      World world("lathe2c");
+      world.run(fmt::format("G0 X80 Z5\nG{} S100 M4 F0.2\nG{} S100\n", from, keeps));
+      EXPECT_EQ(world.host.motionState().feed, 0.2) << from << " " << keeps;
+      EXPECT_EQ(world.host.motionState().feedType, kind == 1 ? 94 : from) << keeps;
+    }
+  }
+}
+
+/// G973 turns the spindle as fast as before the constant cutting speed, however often that was programmed.
+TEST(SinumerikMotion, TheSpeedBeforeTheConstantCuttingSpeedComesBack) {
+  for (const char* cutting : {"G96 S200", "G96 S200\nG96 S150", "G96 S200\nS150", "G961 S200\nG96\nG962 S90"}) {
+    World world("lathe2c");
+    world.run(std::string("G0 X80 Z5\nG97 S1000 M4\n") + cutting + "\nG0 X60\nG973\n");
+    EXPECT_EQ(world.host.motionState().spindleSpeed, 1000) << cutting;
+    EXPECT_FALSE(world.host.motionState().constantCuttingSpeed) << cutting;
+  }
+}
+
+/// D0 before a tool is in the spindle is no edge of the tool to come: that begins with its first.
+TEST(SinumerikMotion, ANextToolBeginsWithItsFirstEdge) {
+  const std::pair<const char*, double> programs[] = {{"T1\nM6\n", 100},   {"T1\nD0\nM6\n", 100}, {"T1\nD2\nM6\n", 90},
+                                                     {"T1\nD2 M6\n", 90}, {"T1\nD0 M6\n", 0},    {"T1\nM6\nD0\n", 0}};
+  for (const auto& [program, length] : programs) {
+    World world;
+    world.run(std::string(program) + "G0 Z10\n");
+    EXPECT_EQ(world.machine.moves.back().to[2], 10 + length) << program;
+  }
+}
+
 TEST(SinumerikMotion, FunctionsAreChosenByTheirPlaceInTheGroup) {
   World world;
   world.control.data.load({"$P_UIFR", {2, "X", "TR"}}, 100.0);
@@ -149,6 +188,13 @@ TEST(SinumerikMotion, FunctionsAreChosenByTheirPlaceInTheGroup) {
   EXPECT_EQ(world.machine.moves.back().to[0], 1);
   for (const int number : {1, 2, 3, 4}) {  // DIAMOF, DIAMON, DIAM90, DIAMCYCOF
     world.run(fmt::format("G[29]={}\nR7=$P_GG[29]\n", number));
+    EXPECT_EQ(world.r(7), number);
+  }
+  const int units[] = {70, 71, 700, 710};
+  for (int number = 1; number <= 4; ++number) {
+    world.run(fmt::format("G{}\nR7=$P_GG[13]\n", units[number - 1]));
+    EXPECT_EQ(world.r(7), number);
+    world.run(fmt::format("G710\nG[13]={}\nR7=$P_GG[13]\n", number));
     EXPECT_EQ(world.r(7), number);
   }
   EXPECT_EQ(world.alarm("G[29]=0\n"), "12470");
