@@ -3,7 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fcntl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <array>
 #include <deque>
 #include <functional>
 #include <thread>
@@ -400,6 +405,37 @@ TEST(RemoteMachine, HandsAStopToTheAdapterAndWaitsForTheAxesToStand) {
   EXPECT_EQ((*machine)->turnSpindle(machine::Rotation::None, 0).end, MoveEnd::Reached);
   adapter.join();
   EXPECT_EQ(Json::parse(stop), (Json{{"do", "stop"}, {"order", 2}}));
+}
+
+/// Sockets that the program was started with begin after standard input, output and errors.
+TEST(Connection, TakesAnOpenSocketFromTheThirdDescriptorOn) {
+  for (const int number : {2, 3, 4}) {
+    std::array<int, 2> ends{};
+    ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()), 0);
+    const int before = fcntl(number, F_DUPFD_CLOEXEC, 100), far = fcntl(ends[1], F_DUPFD_CLOEXEC, 100);
+    const int near = fcntl(ends[0], F_DUPFD_CLOEXEC, 100);
+    for (const int end : ends)
+      if (end != number) close(end);
+    dup2(near, number);
+    close(near);
+    {
+      auto connection = connect("fd:" + std::to_string(number));
+      EXPECT_EQ(connection.has_value(), number >= 3) << number;
+      if (connection) {
+        connection->stream.send("hello");
+        std::array<char, 16> heard{};
+        EXPECT_EQ(read(far, heard.data(), heard.size()), 6);
+        EXPECT_STREQ(heard.data(), "hello\n");
+      }
+    }
+    if (before >= 0) {
+      dup2(before, number);
+      close(before);
+    } else if (number < 3) {
+      close(number);
+    }
+    close(far);
+  }
 }
 
 TEST(Connection, NamesWhatCannotBeReached) {

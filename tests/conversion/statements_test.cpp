@@ -143,6 +143,20 @@ TEST(ConvertMotion, KnowsTheStructuresOfSinumerik) {
       "R1=ATAN2(3,4)\nR2=ROUND(2.6)+TRUNC(3.7)+POT(2)\nGOTOF EE1\nR2=0\nEE1:\nG0 X=R1 Y=R2\n"));
 }
 
+/// Whole circles, with a way of the tool axis or without one, and circles that name their end.
+TEST(ConvertMotion, DrivesWholeCircles) {
+  for (const char* axes : {"", " Z-5"}) {
+    for (const auto& [function, sense] : {std::pair("G2", "-"), std::pair("G3", "+")}) {
+      const std::string text =
+          toKlartext(fmt::format("G17 G90 G710\nG0 X1 Y2\n{} I10 J0{} F100\nM30\n", function, axes)).text;
+      EXPECT_THAT(text, HasSubstr(fmt::format("CP IPA{}360{} DR{}", sense, axes, sense))) << text;
+      EXPECT_TRUE(drivesTheSameFromSinumerik(fmt::format("G0 X1 Y2\n{} I10 J0{} F100\n", function, axes)));
+      EXPECT_TRUE(drivesTheSameFromSinumerik(fmt::format("G0 X1 Y2\n{} X21 Y2 I10 J0{} F100\n", function, axes)));
+      EXPECT_TRUE(drivesTheSameFromSinumerik(fmt::format("G0 X1 Y2\n{} Y12 X11 I10 J0{} F100\n", function, axes)));
+    }
+  }
+}
+
 /// A block before or after the repetition, again and again, and nothing of the blocks between.
 TEST(ConvertMotion, RepeatsSingleBlocks) {
   for (const char* repetition : {"REPEATB AA1 P2", "REPEATB AA1 P=5", "REPEATB AA1", "REPEAT AA1 AA1 P2"}) {

@@ -15,6 +15,17 @@ std::string nameAt(const std::string& program, std::uint64_t line) {
   return FeatureNames(run, ReadableText(run)).at({"A", line, 1});
 }
 
+/// Four letters of a file beside a program in UTF-8 tell Cyrillic; fewer are taken as Western.
+TEST(ReadableText, TellsCyrillicByFourLetters) {
+  RunInfo run;
+  run.programs = {{"A", "0 BEGIN PGM A MM\n"}};
+  const ReadableText readable(run);
+  EXPECT_EQ(readable("\xCF\xF3\xF1\xEA 1"), "\u041F\u0443\u0441\u043A 1");
+  EXPECT_EQ(readable("\xCF\xF3\xF1\xEA\xE0 1"), "\u041F\u0443\u0441\u043A\u0430 1");
+  EXPECT_EQ(readable("m\xE4tt \xE5\xF6"), "m\u00E4tt \u00E5\u00F6");
+  EXPECT_EQ(readable("plain"), "plain");
+}
+
 TEST(FeatureNames, AreTheStructureBlockNearestAbove) {
   const std::string program =
       "0 BEGIN PGM A MM\n5 * - BORE 40 H7\r\n6 TCH PROBE 421 ~\n* -  Edge  \n8 L X+1\n* -\n9 L X+2\n";
