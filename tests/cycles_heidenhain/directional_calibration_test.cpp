@@ -24,7 +24,7 @@ struct Lobed {
   Ran run(int points) const { return bench.run(fmt::format(fmt::runtime(calibrate), points) + measure); }
 };
 
-Lobed lobed(Dice& dice) {
+Lobed lobed(Dice& dice, double clearance = 1) {
   Lobed world;
   Bench& bench = world.bench;
   const double length = written(dice.between(80, 140), 4), ball = written(dice.between(1, 3), 4);
@@ -60,15 +60,15 @@ Lobed lobed(Dice& dice) {
   const Vector3 nominal = point - world.normal * world.deviation;
 
   const Words words = {{407, world.radius},
-                       {320, 1},
+                       {320, clearance},
                        {301, dice.whole(0, 1)},
                        {423, dice.whole(7, 8)},
                        {380, written(dice.between(0, 360))},
                        {433, 1},
                        {434, world.height}};
-  world.calibrate =
-      fmt::format("L Z+60 R0 FMAX\nL X+0 Y+0 R0 FMAX\nL Z{:+.4f} R0 FMAX\n", world.height + world.radius + 4) +
-      probe(460, words, " ~\n  Q455={} ;POINTS") + "L Z+80 R0 FMAX\n";
+  world.calibrate = fmt::format("L Z+60 R0 FMAX\nL X+0 Y+0 R0 FMAX\nL Z{:+.4f} R0 FMAX\n",
+                                world.height + world.radius + 3 + clearance) +
+                    probe(460, words, " ~\n  Q455={} ;POINTS") + "L Z+80 R0 FMAX\n";
   world.measure = probe(444,
                         {{263, nominal.x()},
                          {264, nominal.y()},
@@ -99,6 +99,17 @@ TEST(Cycle460, RemovesWhatDependsOnTheDirection) {
     EXPECT_NEAR(ran.q(164), world.deviation, interpolated);
   }
   EXPECT_GT(plain, 0.008);
+}
+
+/// The sphere is searched over the set-up clearance of the table and that of the cycle together.
+TEST(Cycle460, FindsTheSphereFromAnyClearance) {
+  Dice dice(4606);
+  for (const double clearance : {0.0, 5.0, 18.0}) {
+    const Lobed world = lobed(dice, clearance);
+    const Ran ran = world.run(9);
+    ASSERT_TRUE(ran.finished()) << clearance << ": " << ran.why();
+    EXPECT_EQ(ran.table("TOOL.T").text("1", "DR2TABLE"), "T1.3DTC") << clearance;
+  }
 }
 
 TEST(Cycle460, LeavesATableThatLaterRunsBelieve) {

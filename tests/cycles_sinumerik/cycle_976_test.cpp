@@ -60,6 +60,22 @@ TEST(Cycle976, CalibratesInARing) {
   }
 }
 
+/// Where the spindle cannot be turned to an angle, the probe is calibrated as it stands.
+TEST(Cycle976, CalibratesWithoutTurningASpindleThatDoesNotOrient) {
+  for (const double variant : {1.0, 2.0}) {
+    simulation::Truth truth = perfectWorld();
+    truth.machine.spindleOrients = false;
+    truth.tools[0].probe.pretravel = 0.01;
+    place(truth, simulation::Ring(20, 60, -40), translation({0, 0, table}));
+    SinumerikBench bench(truth);
+    forgetCalibration(bench);
+    plantFrame(bench, "$P_UIFR", 1, {0, 0, table});
+    bench.start({0, 0, -10});
+    bench.run("CYCLE976", {{"S_MVAR", variant}, {"S_SETV", 40}, {"S_FA", 8}, {"S_TSA", 3}, {"S_VMS", 200}});
+    EXPECT_NEAR(bench.data("$SNS_MEA_WP_BALL_DIAM", {0}), 2 * 1.99, 1e-9) << variant;
+  }
+}
+
 TEST(Cycle976, WhatItCalibratesMeasuresRight) {
   simulation::Truth truth = perfectWorld();
   truth.tools[0].probe.tipOffset = {0.1, -0.07};

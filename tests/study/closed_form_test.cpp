@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -78,6 +79,35 @@ maximum = 360
   EXPECT_LT(answer(result, "421@23 Q151").values.deviation, 1e-5);
   expectUncertainty(result, "421@23 Q153", 2 * 0.003 / std::sqrt(2.0));
   EXPECT_NEAR(answer(result, "421@23 Q153").values.maximum, 30 + 0.006, 1e-4);
+}
+
+/// What a measurand should be is a number of the setup times a factor plus an offset.
+TEST(ClosedForm, TheTruthOfAMeasurandHasAFactorAndAnOffset) {
+  const std::string width =
+      "3 TCH PROBE 426 WIDTH ~\nQ263=-40 ~\nQ264=+20 ~\nQ265=+40 ~\nQ266=+20 ~\nQ272=+1 ~\nQ261=-8 ~\n"
+      "Q320=+2 ~\nQ260=+30 ~\nQ311=+80 ~\nQ288=+80.1 ~\nQ289=+79.9 ~\nQ281=+0 ~\nQ309=+0 ~\nQ330=+0\n";
+  for (const auto& [factor, offset] : {std::pair(1.0, 0.0), {1.0, 0.25}, {0.5, 0.0}, {-2.0, 240.5}, {0.5, -3.0}}) {
+    const StudyResult result = studyOfProgram(plateSetup(""), program(width),
+                                              fmt::format(R"(
+trials = 10
+sensitivity = "none"
+[[source]]
+quantity = "part.pose.b"
+distribution = "normal"
+standard_deviation = 0.01
+[[measurand]]
+result = "Q156"
+truth = "part.feature[1].size[1]"
+factor = {}
+offset = {}
+)",
+                                                          factor, offset));
+    const Answer& found = answer(result, "426@4 Q156");
+    ASSERT_TRUE(found.error);
+    ASSERT_TRUE(found.truths);
+    EXPECT_NEAR(found.truths->mean, 80 * factor + offset, 1e-9);
+    EXPECT_NEAR(found.error->mean, found.values.mean - (80 * factor + offset), 1e-9);
+  }
 }
 
 /// A wall that leans by b makes its thickness w look like w / cos b: with b normal about 0 too large by w sigma^2 / 2.

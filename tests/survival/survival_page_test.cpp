@@ -24,5 +24,28 @@ TEST(SurvivalPage, ListsTheClampingsThatFailIfThereAreAny) {
                               "<td class=\"t\">no contact &lt;X&gt;</td></tr>"));
 }
 
+/// What survives about the middle is framed in the picture, in proportion, if there is anything of the kind.
+TEST(SurvivalPage, FramesWhatSurvivesAboutTheMiddle) {
+  const SurvivalInfo info{.program = "P.H", .setup = "plate.toml", .version = "1", .text = "0 BEGIN PGM P MM\n"};
+  const std::string frame = "style=\"stroke:#10502f";
+  Survival survival;
+  survival.tolerances.resize(2);
+  for (Tolerance& each : survival.tolerances) {
+    each.low = -1;
+    each.high = 1;
+  }
+  survival.symmetric = 0;
+  EXPECT_THAT(survivalPage(survival, info), Not(HasSubstr(frame)));
+  const auto widthOf = [&](double symmetric) {
+    survival.symmetric = symmetric;
+    const std::string page = survivalPage(survival, info);
+    const std::size_t at = page.find("width=\"", page.find(frame));
+    EXPECT_NE(page.find(frame), std::string::npos) << symmetric;
+    return at == std::string::npos ? 0.0 : std::stod(page.substr(at + 7));
+  };
+  EXPECT_GT(widthOf(0.25), 10);
+  EXPECT_NEAR(widthOf(0.5), 2 * widthOf(0.25), 0.02);
+}
+
 }  // namespace
 }  // namespace probewright::survival
