@@ -5,10 +5,6 @@
 namespace probewright::simulation {
 namespace {
 
-void keep(Meeting& best, double when, const Vector3& point, const Vector3& normal) {
-  if (when < best.when) best = {when, point, normal};
-}
-
 /// The parameter of the point of a circle nearest to p, moved by whole turns into [first, first + 360 degrees).
 struct CircleFoot {
   Vector3 point;

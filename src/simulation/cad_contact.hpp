@@ -2,9 +2,14 @@
 
 #include "simulation/cad_model.hpp"
 
-/// The exact contact of a moving ball with one face or edge. Each function puts a meeting earlier than the best into
-/// `best`. Accuracy 1e-8 mm wherever the ball does not merely graze.
+/// The exact contact of a moving ball with one face or edge. Each function that meets one puts a meeting earlier than
+/// the best into `best`. Accuracy 1e-8 mm wherever the ball does not merely graze.
 namespace probewright::simulation {
+
+/// Puts a meeting into `best` if it is earlier.
+inline void keep(Meeting& best, double when, const Vector3& point, const Vector3& normal) {
+  if (when < best.when) best = {when, point, normal};
+}
 
 /// A face with closed forms, whole.
 void meetAnalyticFace(const CadFace& face, const Way& way, double radius, Meeting& best);

@@ -7,30 +7,10 @@
 
 #include "simulation/cad_contact.hpp"
 #include "simulation/cad_vectors.hpp"
+#include "simulation/settling.hpp"
 
 namespace probewright::simulation {
 namespace {
-
-void keep(Meeting& best, double when, const Vector3& point, const Vector3& normal) {
-  if (when < best.when) best = {when, point, normal};
-}
-
-/// Tells when the steps of an iteration have become small enough. Where coordinates are large, rounding keeps them from
-/// shrinking on: then the last step was as good as any.
-class Settling {
-public:
-  explicit Settling(double enough) : enough_(enough) {}
-  bool after(double step) {
-    constexpr double kRounding = 1e-9;
-    const bool settled = step < enough_ || (step < kRounding && step >= last_);
-    last_ = step;
-    return settled;
-  }
-
-private:
-  double enough_;  ///< mm, as the steps
-  double last_ = 1e300;
-};
 
 struct SurfacePoint {
   Vector3 point, u, v, uu, uv, vv;
@@ -97,9 +77,11 @@ bool projectOntoSurface(const Geom_Surface& surface, const Vector3& p, const Vec
   return false;
 }
 
-/// Newton's method for the place where a ball on its way touches the surface. False if it does not settle.
+/// Newton's method for the place where a ball on its way touches the surface. False if it does not settle, or goes
+/// astray on the way.
+template <class GoesAstray>
 bool solveSurfaceTouch(const Geom_Surface& surface, const Way& way, double radius, const Vector2& extent, Vector2& at,
-                       double& when) {
+                       double& when, const GoesAstray& goesAstray) {
   Settling settling(1e-12);
   for (int i = 0; i < 25; ++i) {
     const SurfacePoint s = evaluate(surface, at);
@@ -119,6 +101,7 @@ bool solveSurfaceTouch(const Geom_Surface& surface, const Way& way, double radiu
     if (std::abs(step[2]) > radius) scale = std::min(scale, radius / std::abs(step[2]));
     at += scale * step.head<2>();
     when += scale * step[2];
+    if (goesAstray(at)) return false;
     const bool still = settling.after(std::abs(step[2]));
     if (still && (s.u * step.x() + s.v * step.y()).norm() < 1e-9) return true;
   }
@@ -139,8 +122,8 @@ public:
   /// Looks again where the iterations went astray: at smaller triangles around, those first that would be met first,
   /// until they settle or are as good as the surface.
   void closely(const CadElement& triangle) {
-    for (const CadElement& piece : widened(triangle)) {
-      for (const CadElement& part : quarters(piece))
+    for (const std::array<Vector2, 3>& piece : widened(triangle)) {
+      for (const Patch& part : quarters(patch(sample(piece[0]), sample(piece[1]), sample(piece[2]))))
         consider(part, 1);
     }
     for (int looked = 0; !open_.empty() && best_.when >= 0; ++looked) {
@@ -150,7 +133,7 @@ public:
       if (next.coarse.when > best_.when - kSame) return;
       if (settles(next.element, next.coarse, Otherwise::LeaveOpen)) continue;
       if (next.depth < kDeepest && next.element.growth > kFlat && looked < kMostParts) {
-        for (const CadElement& quarter : quarters(next.element))
+        for (const Patch& quarter : quarters(next.patch))
           consider(quarter, next.depth + 1);
       } else {
         meetFlat(next);
@@ -164,32 +147,107 @@ private:
   static constexpr double kFlat = 1e-8;  ///< mm: a triangle that leaves the surface by less is as good as the surface
   static constexpr double kSame = 1e-7;  ///< mm: contacts nearer to each other are the same
 
+  /// A place of the surface; its normal is zero at a pole.
+  struct Sample {
+    Vector2 at;
+    Vector3 point, normal;
+  };
+  /// The corners of a triangle of the surface; behind them the middles of its sides, the first between the first two.
+  using Patch = std::array<Sample, 6>;
   /// A piece of the surface that may be met, and where at the earliest.
   struct Part {
     Meeting coarse;
     CadElement element;
+    Patch patch;
     int depth = 0;
   };
   static bool later(const Part& a, const Part& b) { return a.coarse.when > b.coarse.when; }
 
-  CadElement element(const std::array<Vector2, 3>& parameters) const {
+  Sample sample(const Vector2& at) const {
+    gp_Pnt p;
+    gp_Vec u, v;
+    surface_.D1(at.x(), at.y(), p, u, v);
+    const Vector3 alongU = vector(u), alongV = vector(v);
+    const Vector3 normal = alongU.cross(alongV);
+    constexpr double kFlattest = 1e-7;
+    const double size = normal.norm();
+    return {at, vector(p),
+            size > kFlattest * alongU.norm() * alongV.norm() ? Vector3(normal / size) : Vector3(Vector3::Zero())};
+  }
+
+  Sample between(const Sample& a, const Sample& b) const { return sample((a.at + b.at) / 2); }
+  Patch patch(const Sample& a, const Sample& b, const Sample& c) const {
+    return {a, b, c, between(a, b), between(b, c), between(c, a)};
+  }
+
+  std::array<Patch, 4> quarters(const Patch& t) const {
+    const auto& [a, b, c, ab, bc, ca] = t;
+    const Sample x = between(ab, bc), y = between(bc, ca), z = between(ca, ab);
+    return {Patch{a, ab, ca, between(a, ab), z, between(ca, a)}, Patch{ab, b, bc, between(ab, b), between(b, bc), x},
+            Patch{ca, bc, c, y, between(bc, c), between(c, ca)}, Patch{ab, bc, ca, x, y, z}};
+  }
+
+  static CadElement elementOf(const Patch& patch) {
     CadElement e;
-    e.parameters = parameters;
-    for (std::size_t k = 0; k < 3; ++k)
-      e.corners[k] = evaluate(surface_, parameters[k]).point;
     double deviation = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t j = (k + 1) % 3;
-      const Vector3 middle = evaluate(surface_, (parameters[k] + parameters[j]) / 2).point;
-      deviation = std::max(deviation, (middle - (e.corners[k] + e.corners[j]) / 2).norm());
+      e.parameters[k] = patch[k].at;
+      e.corners[k] = patch[k].point;
+      const Vector3 middle = (patch[k].point + patch[(k + 1) % 3].point) / 2;
+      deviation = std::max(deviation, (patch[3 + k].point - middle).norm());
     }
     e.growth = 1e-9 + 2 * deviation;
     return e;
   }
 
+  /// True if the ball may touch the inside of a patch between two times: that happens along a normal of the surface.
+  /// Elsewhere only edges and poles are touched.
+  bool facesTheBall(const Patch& patch, double from, double to) const {
+    Vector3 middle = Vector3::Zero(), normal = Vector3::Zero();
+    double known = 0;
+    for (const Sample& s : patch) {
+      middle += s.point / 6;
+      normal += s.normal;
+      known += s.normal == Vector3::Zero() ? 0 : 1;
+    }
+    if (known < 3 || normal.norm() < 0.5 * known) return true;
+    normal.normalize();
+    double size = 0, spread = 0;
+    for (const Sample& s : patch) {
+      size = std::max(size, (s.point - middle).norm());
+      if (s.normal != Vector3::Zero()) spread = std::max(spread, (s.normal - normal).norm());
+    }
+    // What lies between the samples may be a little more than they are.
+    constexpr double kSizes = 1.2, kSpreads = 2.5, kLeast = 1e-4;
+    const Vector3 way = way_.at((from + to) / 2) - middle;
+    const double distance = way.norm(), off = kSizes * size + (to - from) / 2;
+    if (off > 0.5 * distance) return true;
+    return way.cross(normal).norm() / distance < kLeast + kSpreads * spread + 1.2 * off / distance;
+  }
+
+  /// True if a plane shows that the ball does not reach a patch before it has made the best contact so far.
+  bool liesBehind(const Patch& patch) const {
+    if (best_.when < 0 || best_.when > way_.length) return false;
+    const Vector3 centre = way_.at(best_.when);
+    for (const Vector3& place :
+         {best_.point, closestOnTriangle(centre, {patch[0].point, patch[1].point, patch[2].point})}) {
+      const Vector3 out = (place - centre).normalized();
+      const double ahead = out.dot(way_.direction);
+      if (!(ahead > 0)) continue;
+      std::array<double, 6> heights{};
+      for (std::size_t k = 0; k < 6; ++k)
+        heights[k] = out.dot(patch[k].point - centre);
+      double bent = 0;
+      for (std::size_t k = 0; k < 3; ++k)
+        bent = std::max(bent, std::abs(heights[3 + k] - (heights[k] + heights[(k + 1) % 3]) / 2));
+      if (*std::ranges::min_element(heights) - 2 * bent > radius_ - kSame * ahead) return true;
+    }
+    return false;
+  }
+
   /// The same triangle, large enough to cover what a chord cuts off beside it, in pieces: without what lies beyond the
   /// box about the borders, where a spline is nothing that anybody meant.
-  std::vector<CadElement> widened(const CadElement& triangle) const {
+  std::vector<std::array<Vector2, 3>> widened(const CadElement& triangle) const {
     const auto& [a, b, c] = triangle.parameters;
     const Vector2 middle = (a + b + c) / 3;
     std::vector<Vector2> polygon;
@@ -203,11 +261,9 @@ private:
         polygon = cut(polygon, [&](const Vector2& p) { return high[k] - p[k]; });
       }
     }
-    std::vector<CadElement> pieces;
-    for (std::size_t i = 2; i < polygon.size(); ++i) {
-      pieces.push_back(triangle);
-      pieces.back().parameters = {polygon[0], polygon[i - 1], polygon[i]};
-    }
+    std::vector<std::array<Vector2, 3>> pieces;
+    for (std::size_t i = 2; i < polygon.size(); ++i)
+      pieces.push_back({polygon[0], polygon[i - 1], polygon[i]});
     return pieces;
   }
 
@@ -224,23 +280,27 @@ private:
     return part;
   }
 
-  std::array<CadElement, 4> quarters(const CadElement& t) const {
-    const Vector2& a = t.parameters[0];
-    const Vector2& b = t.parameters[1];
-    const Vector2& c = t.parameters[2];
-    const Vector2 ab = (a + b) / 2;
-    const Vector2 bc = (b + c) / 2;
-    const Vector2 ca = (c + a) / 2;
-    return {element({a, ab, ca}), element({ab, b, bc}), element({ca, bc, c}), element({ab, bc, ca})};
-  }
-
-  void consider(const CadElement& element, int depth) {
-    Part part{{}, element, depth};
+  void consider(const Patch& patch, int depth) {
+    Part part{{}, elementOf(patch), patch, depth};
     part.coarse.when = best_.when;
-    if (!sweepTriangle(way_, radius_ + element.growth, element.corners, part.coarse)) return;
-    if (part.coarse.when > best_.when - kSame) return;
+    if (!sweepTriangle(way_, radius_ + part.element.growth, part.element.corners, part.coarse)) return;
+    if (part.coarse.when > best_.when - kSame || !reachesDomain(part.element)) return;
+    const Vector2 middle = (patch[0].at + patch[1].at + patch[2].at) / 3;
+    for (std::size_t k = 0; k < 3; ++k) {
+      // A pole is a place where borders meet, at least of the parameters: just within, they tell whose it is.
+      if (patch[k].normal == Vector3::Zero() && face_.domain.contains(patch[k].at + 1e-3 * (middle - patch[k].at)))
+        sweepPoint(way_, radius_, patch[k].point, best_);
+    }
+    if (liesBehind(patch)) return;
+    if (!facesTheBall(patch, std::max(0.0, part.coarse.when), std::min(best_.when, way_.length))) return;
     open_.push_back(std::move(part));
     std::push_heap(open_.begin(), open_.end(), later);
+  }
+
+  /// False if no part of the face is near: what its surface does beyond the borders matters to nobody.
+  bool reachesDomain(const CadElement& element) const {
+    const auto& [a, b, c] = element.parameters;
+    return face_.domain.isEverywhere() || face_.domain.reaches(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c));
   }
 
   /// As a last resort the triangle itself, unless what is known already is the same within its precision.
@@ -289,7 +349,11 @@ private:
     const Vector2 seed = at;
     double when = std::max(0.0, middle.found() ? middle.when : coarse.when);
     const auto approaches = [&] { return (way_.at(when) - evaluate(surface_, at).point).dot(way_.direction) < 0; };
-    const bool solved = solveSurfaceTouch(surface_, way_, radius_, extent, at, when) && approaches();
+    const auto goesAstray = [&](const Vector2& place) {
+      return otherwise == Otherwise::LeaveOpen &&
+             ((place - low + 3 * extent).minCoeff() < 0 || (low + 3.5 * extent - place).minCoeff() < 0);
+    };
+    const bool solved = solveSurfaceTouch(surface_, way_, radius_, extent, at, when, goesAstray) && approaches();
     if (solved && isNear(at)) return accept(when, at);
     // A contact elsewhere counts, too, but this place is still open.
     if (solved) accept(when, at);
@@ -331,145 +395,6 @@ private:
   std::vector<Part> open_;
 };
 
-/// One search for the contact of a ball with a curved edge.
-class EdgeSearch {
-public:
-  EdgeSearch(const CadEdge& edge, const TrimmedDomain* within, const Way& way, double radius, Meeting& best)
-      : edge_(edge), within_(within), way_(way), radius_(radius), best_(best) {}
-
-  /// Looks near the chord between two parameters; `coarse` is the meeting with the grown chord.
-  void near(double low, double high, const Meeting& coarse, int depth = 0) {
-    if (depth == 0) {
-      for (const double t : {low, high}) {
-        if (counts(t)) sweepPoint(way_, radius_, pointAt(t), best_);
-      }
-    }
-    if (settles(low, high, coarse)) return;
-    constexpr int kDeepest = 14;
-    const double middle = (low + high) / 2;
-    const std::array<double, 3> ends{low, middle, high};
-    for (std::size_t k = 0; k < 2; ++k) {
-      const Vector3 a = pointAt(ends[k]);
-      const Vector3 b = pointAt(ends[k + 1]);
-      const double deviation = (pointAt((ends[k] + ends[k + 1]) / 2) - (a + b) / 2).norm();
-      Meeting finer;
-      finer.when = best_.when;
-      if (!sweepSegment(way_, radius_ + 1e-9 + 2 * deviation, a, b, finer)) continue;
-      if (finer.when > best_.when - 1e-7) continue;
-      if (depth < kDeepest && deviation > 1e-8) {
-        near(ends[k], ends[k + 1], finer, depth + 1);
-      } else if (deviation < 1e-6) {
-        meetStraight(ends[k], ends[k + 1], a, b);
-      }
-    }
-  }
-
-private:
-  std::array<Vector3, 3> evaluateCurve(double t) const {
-    gp_Pnt p;
-    gp_Vec d1, d2;
-    edge_.curve->D2(t, p, d1, d2);
-    return {vector(p), vector(d1), vector(d2)};
-  }
-  Vector3 pointAt(double t) const { return vector(edge_.curve->Value(t)); }
-
-  bool counts(double t) const {
-    return within_ == nullptr || within_->contains(edge_.acrossU ? Vector2(edge_.kinkAt, t) : Vector2(t, edge_.kinkAt));
-  }
-
-  /// Meets a piece that is as good as straight; beyond the border of the face that it is a kink of, there is nothing.
-  void meetStraight(double low, double high, const Vector3& a, const Vector3& b) {
-    Meeting met;
-    met.when = best_.when;
-    if (!sweepSegment(way_, radius_, a, b, met)) return;
-    const Vector3 line = b - a;
-    const double share =
-        line.squaredNorm() > 0 ? std::clamp(line.dot(met.point - a) / line.squaredNorm(), 0.0, 1.0) : 0;
-    if (counts(low + share * (high - low))) keep(best_, met.when, met.point, met.normal);
-  }
-
-  bool project(const Vector3& p, double extent, double& t) const {
-    Settling settling(1e-11);
-    for (int i = 0; i < 30; ++i) {
-      const auto [c, d1, d2] = evaluateCurve(t);
-      const Vector3 w = p - c;
-      double curvature = d1.squaredNorm() - w.dot(d2);
-      if (curvature <= 0) curvature = d1.squaredNorm();
-      if (curvature <= 0) return false;
-      const double step = std::clamp(w.dot(d1) / curvature, -extent, extent);
-      t += step;
-      if (settling.after(std::abs(step) * d1.norm())) return true;
-    }
-    return false;
-  }
-
-  double gapAt(double when, double t) const { return (way_.at(when) - pointAt(t)).norm() - radius_; }
-
-  /// True if what happens near the chord is known: a contact, which goes into the best, or none.
-  bool settles(double low, double high, const Meeting& coarse) {
-    const double extent = high - low;
-    const Vector3 from = pointAt(low);
-    const Vector3 line = pointAt(high) - from;
-    const double share =
-        line.squaredNorm() > 0 ? std::clamp(line.dot(coarse.point - from) / line.squaredNorm(), 0.0, 1.0) : 0.5;
-    const double seed = low + share * extent;
-    const auto onChord = [&](double t) {
-      return t >= low - 0.01 * extent && t <= high + 0.01 * extent && t >= edge_.first && t <= edge_.last;
-    };
-    if (coarse.when < 0) {
-      double t = seed;
-      if (project(way_.start, extent, t) && onChord(t) && counts(t)) {
-        const double gap = gapAt(0, t);
-        if (gap < -kTouchTolerance) {
-          keep(best_, gap, pointAt(t), Vector3::Zero());
-          return true;
-        }
-      }
-    }
-    double at = seed;
-    double when = std::max(0.0, coarse.when);
-    if (!solve(extent, at, when)) return false;
-    if (!onChord(at)) return false;
-    const Vector3 touch = pointAt(at);
-    if ((way_.at(when) - touch).dot(way_.direction) >= 0) return false;
-    if (!counts(at) || when < -1e-7 || when > way_.length || when >= best_.when) return true;
-    if (std::abs(gapAt(when, at)) > 1e-7) return false;
-    const double end = std::min(way_.length, std::max(when, 0.0) + 1e-3 * radius_);
-    double later = at;
-    if (project(way_.at(end), extent, later) && gapAt(end, later) >= -kTouchTolerance) return true;
-    keep(best_, std::max(0.0, when), touch, Vector3::Zero());
-    return true;
-  }
-
-  /// Newton's method for the place where the ball touches the curve.
-  bool solve(double extent, double& at, double& when) const {
-    Settling settling(1e-12);
-    for (int i = 0; i < 25; ++i) {
-      const auto [c, d1, d2] = evaluateCurve(at);
-      const Vector3 w = way_.at(when) - c;
-      const Vector2 f(w.dot(d1), (w.squaredNorm() - radius_ * radius_) / (2 * radius_));
-      Eigen::Matrix2d jacobian;
-      jacobian << w.dot(d2) - d1.squaredNorm(), way_.direction.dot(d1), -w.dot(d1) / radius_,
-          way_.direction.dot(w) / radius_;
-      if (std::abs(jacobian.determinant()) < 1e-300) return false;
-      const Vector2 step = -jacobian.inverse() * f;
-      const double scale = std::min(
-          {1.0, extent / std::max(std::abs(step.x()), 1e-300), radius_ / std::max(std::abs(step.y()), 1e-300)});
-      at += scale * step.x();
-      when += scale * step.y();
-      const bool still = settling.after(std::abs(step.y()));
-      if (still && std::abs(step.x()) * d1.norm() < 1e-9) return true;
-    }
-    return false;
-  }
-
-  const CadEdge& edge_;
-  const TrimmedDomain* within_;
-  const Way& way_;
-  double radius_;
-  Meeting& best_;
-};
-
 }  // namespace
 
 bool meetFaceNear(const CadFace& face, const CadElement& triangle, const Meeting& coarse, const Way& way, double radius,
@@ -479,11 +404,6 @@ bool meetFaceNear(const CadFace& face, const CadElement& triangle, const Meeting
 
 void meetFaceClosely(const CadFace& face, const CadElement& triangle, const Way& way, double radius, Meeting& best) {
   FaceSearch(face, way, radius, best).closely(triangle);
-}
-
-void meetEdgeNear(const CadEdge& edge, const TrimmedDomain* within, const CadElement& chord, const Meeting& coarse,
-                  const Way& way, double radius, Meeting& best) {
-  EdgeSearch(edge, within, way, radius, best).near(chord.parameters[0].x(), chord.parameters[1].x(), coarse);
 }
 
 }  // namespace probewright::simulation

@@ -14,6 +14,7 @@
 #include <BRep_Builder.hxx>
 #include <GC_MakeArcOfCircle.hxx>
 #include <GC_MakeSegment.hxx>
+#include <Geom2d_Circle.hxx>
 #include <Geom2d_Line.hxx>
 #include <GeomAPI_PointsToBSplineSurface.hxx>
 #include <GeomConvert.hxx>
@@ -28,8 +29,12 @@
 #include <TColStd_Array1OfReal.hxx>
 #include <TColgp_Array1OfPnt.hxx>
 #include <TColgp_Array2OfPnt.hxx>
+#include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
+#include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <TopoDS_Wire.hxx>
+#include <ctime>
 
 #include "oracle.hpp"
 #include "simulation/cad_solid.hpp"
@@ -154,6 +159,53 @@ TEST(Sheets, EndWhereTheirBordersCrossALineThatNeedNotBeSmooth) {
     ASSERT_TRUE(contact) << y;
     // There it rises by one in five.
     EXPECT_NEAR(contact->touchPoint.z(), 3 + (contact->touchPoint.x() - 10) / 5, 0.02) << y;
+  }
+}
+
+/// A bowl z = (x x + y y) / `width` over 80 x 80 mm, as a spline, with a hole of radius 30 about Z.
+TopoDS_Shape bowlWithAHole(double width) {
+  TColgp_Array2OfPnt poles(1, 3, 1, 3);
+  for (const int i : {-1, 0, 1}) {
+    for (const int j : {-1, 0, 1}) {
+      const double edge = 1600 / width;  // the height at the middle of a side
+      poles(i + 2, j + 2) = gp_Pnt(40 * i, 40 * j, (i == 0 ? -edge : edge) + (j == 0 ? -edge : edge));
+    }
+  }
+  TColStd_Array1OfReal knots(1, 2);
+  knots(1) = -40;
+  knots(2) = 40;
+  TColStd_Array1OfInteger multiplicities(1, 2);
+  multiplicities.Init(3);
+  const Handle(Geom_Surface) bowl = new Geom_BSplineSurface(poles, knots, knots, multiplicities, multiplicities, 2, 2);
+  const Handle(Geom2d_Circle) circle = new Geom2d_Circle(gp_Ax2d(gp_Pnt2d(0, 0), gp_Dir2d(1, 0)), 30);
+  const TopoDS_Edge edge = BRepBuilderAPI_MakeEdge(circle, bowl);
+  BRep_Builder().UpdateEdge(edge, new Geom_Circle(gp_Ax2(gp_Pnt(0, 0, 900 / width), gp::DZ()), 30), 1e-7);
+  const TopoDS_Wire hole = BRepBuilderAPI_MakeWire(edge);
+  BRepBuilderAPI_MakeFace face(bowl, 1e-7);
+  face.Add(TopoDS::Wire(hole.Reversed()));
+  BRepLib::BuildCurves3d(face.Face());
+  return face.Shape();
+}
+
+double processorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// Balls in the hole go to its edge, so near to what the surface does beyond the edge that they touch it nowhere.
+TEST(Sheets, EndAtTheEdgesOfHoles) {
+  std::mt19937_64 random(43);
+  for (const double width : {1e4, 100.0, 20.0}) {
+    const auto solid = cadSolid(bowlWithAHole(width));
+    ASSERT_TRUE(solid) << format(solid.error());
+    const double edge = 900 / width, begin = processorSeconds();
+    for (int i = 0; i < 100; ++i) {
+      const double turn = uniform(random, 0, 2 * std::numbers::pi), ball = uniform(random, 0.5, 12);
+      const double below = uniform(random, 0, 0.6) * ball;
+      const Vector3 way(std::cos(turn), std::sin(turn), 0);
+      const auto contact = (*solid)->firstContact({0, 0, edge - below}, 40 * way + Vector3(0, 0, edge - below), ball);
+      ASSERT_TRUE(contact) << i;
+      EXPECT_NEAR(contact->fraction * 40, 30 - std::sqrt(ball * ball - below * below), 1e-6)
+          << i << ": a ball of " << ball << " towards " << turn;
+    }
+    EXPECT_LT(processorSeconds() - begin, 10) << "where a contact is looked for all over the surface: minutes";
   }
 }
 
