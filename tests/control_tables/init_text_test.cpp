@@ -189,6 +189,15 @@ std::string firstError(std::string_view line) {
   return result.diagnostics.empty() ? "" : format(result.diagnostics.front());
 }
 
+/// What is no character is shown as one, but for what ends the line.
+TEST(InitText, ShowsALineWithoutWhatEndsIt) {
+  for (const char* end : {"", "\r", " ", "\t\r", " \r \r", "?", "\x01 ?"}) {
+    const Read result = read(std::string("\x01R1[2 \x02 =5") + end + "\n");
+    ASSERT_FALSE(result.diagnostics.empty()) << end;
+    EXPECT_EQ(result.diagnostics.front().excerpt, "?R1[2 ? =5") << end;
+  }
+}
+
 TEST(InitText, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(firstError("R1=1\n$TC_DP3[1,1=5\n"), HasSubstr("DATA.INI:2:8: error: the bracket is not closed"));
   EXPECT_THAT(firstError("$TC_DP3[1,]=5"), HasSubstr(":1:11: error: an index is expected"));

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -182,6 +184,54 @@ TEST(ChainFit, FindsTheTrunnionOfTheWorkedExample) {
   const std::vector<double> quality = valuations(task, series);
   EXPECT_NEAR(quality[0], 2 * (2 - 2 * std::cos(std::numbers::pi / 2)) + 2 * (2 - std::sqrt(3)), 1e-3);
   EXPECT_NEAR(quality[1], 8, 1e-3);
+}
+
+/// Axes that turn together: an axis is worth what the less certain of the two coordinates of its place is, whatever
+/// directions these have.
+TEST(ChainFit, ValuesAnAxisByTheDirectionThatIsKnownLeast) {
+  Dice dice(47);
+  const World world = planted(dice, "mill5-table-table", 0, 0);
+  const ChainFitTask task = taskOf(world, false);
+  std::vector<SphereSighting> series;
+  for (const auto& [first, second] : {std::pair(0.0, 0.0), {20.0, 10.0}, {50.0, 15.0}, {35.0, 60.0}, {10.0, 80.0}}) {
+    AxisPositions axes;
+    axes[world.planted[0].axis] = first;
+    axes[world.planted[1].axis] = second;
+    series.push_back({reaching(world.truth, world.sphere, axes), ball});
+  }
+  const auto apart = [&](const std::vector<RotaryCorrection>& corrections) {
+    const MachineDescription machine = machine::corrected(world.built, corrections);
+    Eigen::VectorXd values(3 * static_cast<Eigen::Index>(series.size() - 1));
+    for (std::size_t i = 1; i < series.size(); ++i)
+      values.segment<3>(3 * static_cast<Eigen::Index>(i - 1)) =
+          seen(task, machine, series[i]) - seen(task, machine, series[0]);
+    return values;
+  };
+  // Two directions across each axis, not along those of the machine.
+  constexpr double step = 1e-3;
+  Eigen::MatrixXd slopes(3 * static_cast<Eigen::Index>(series.size() - 1), 4);
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    Vector3 along = Vector3::Zero();
+    for (const auto& link : world.built.tableChain)
+      if (link.axis == world.planted[axis].axis) along = link.direction;
+    const Vector3 one = along.cross(Vector3(1, 2, 4)).normalized(), other = along.cross(one);
+    for (const auto& [column, way] : {std::pair(0, one), {1, other}}) {
+      std::vector<RotaryCorrection> further = {{.axis = world.planted[0].axis}, {.axis = world.planted[1].axis}};
+      std::vector<RotaryCorrection> nearer = further;
+      further[axis].position = step * way;
+      nearer[axis].position = -step * way;
+      slopes.col(2 * static_cast<Eigen::Index>(axis) + column) = (apart(further) - apart(nearer)) / (2 * step);
+    }
+  }
+  const Eigen::Matrix4d inverse = Eigen::Matrix4d(slopes.transpose() * slopes).inverse();
+  const std::vector<double> values = valuations(task, {&series, 1});
+  ASSERT_EQ(values.size(), 2U);
+  for (Eigen::Index axis = 0; axis < 2; ++axis) {
+    const Eigen::Matrix2d block = inverse.block<2, 2>(2 * axis, 2 * axis);
+    const Eigen::Vector2d variances = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(block).eigenvalues();
+    EXPECT_GT(variances[1], 1.2 * variances[0]) << "the two coordinates are known unlike well";
+    EXPECT_NEAR(values[static_cast<std::size_t>(axis)], 1 / variances[1], 1e-5 / variances[1]);
+  }
 }
 
 /// A fork head whose outer axis was measured with the tool upright: the ball stands on its axis.
