@@ -8,6 +8,7 @@
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepLib.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeRevol.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
@@ -35,6 +36,7 @@
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Wire.hxx>
 #include <ctime>
+#include <gp_Pln.hxx>
 
 #include "oracle.hpp"
 #include "simulation/cad_solid.hpp"
@@ -141,6 +143,18 @@ TopoDS_Shape cutSheet() {
 }
 
 /// Balls past the end of what is left of the line in the middle.
+/// Pictures show the borders of sheets and the edges between faces, not the seam of a round face.
+TEST(Sheets, AreDrawnWithTheirBorders) {
+  const auto edgesOf = [](const TopoDS_Shape& shape) {
+    const auto solid = cadSolid(shape);
+    EXPECT_TRUE(solid);
+    return solid ? drawingMesh(**solid).featureEdges.size() : 0;
+  };
+  EXPECT_EQ(edgesOf(BRepBuilderAPI_MakeFace(gp_Pln(), 0, 10, 0, 20).Shape()), 4U);
+  EXPECT_EQ(edgesOf(BRepPrimAPI_MakeBox(10, 20, 30).Shape()), 12U);
+  EXPECT_EQ(edgesOf(BRepPrimAPI_MakeCylinder(5, 20).Shape()), 2U) << "the two rims";
+}
+
 TEST(Sheets, EndWhereTheirBordersCrossALineThatNeedNotBeSmooth) {
   const auto solid = cadSolid(cutSheet());
   ASSERT_TRUE(solid) << format(solid.error());
