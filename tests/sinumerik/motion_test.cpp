@@ -168,6 +168,17 @@ TEST(SinumerikMotion, ANextToolBeginsWithItsFirstEdge) {
   }
 }
 
+/// T0 prepares no tool whose edge could be kept: an edge is refused at once.
+TEST(SinumerikMotion, NoToolHasAnEdge) {
+  for (const char* program : {"T0\nD1\nG0 Z10\n", "T0\nD2\nT1\nM6\n"}) {
+    World world;
+    EXPECT_EQ(world.alarm(program), "17180") << program;
+  }
+  World world;
+  world.run("T0\nD0\nG0 Z10\n");
+  EXPECT_EQ(world.machine.moves.back().to[2], 10);
+}
+
 TEST(SinumerikMotion, FunctionsAreChosenByTheirPlaceInTheGroup) {
   World world;
   world.control.data.load({"$P_UIFR", {2, "X", "TR"}}, 100.0);
