@@ -111,6 +111,29 @@ TEST(SinumerikActiveFrames, AChannelBeginsAsMachineDatum20150Says) {
   EXPECT_TRUE(host.motionState().feedInInch);
 }
 
+/// A frame that is written whole counts as its components do: in inches with G700, in millimetres with G70.
+TEST(SinumerikActiveFrames, FrameFunctionsCountAsTheComponentsOfFramesDo) {
+  for (const bool inch : {false, true}) {
+    World world;
+    world.run(std::string("DEF FRAME FRM\n") + (inch ? "G700" : "G70") +
+              "\n$P_UIFR[1]=CTRANS(X,1,C,30):CFINE(Y,0.5):CROT(Z,10)\nR1=$P_UIFR[1,X,TR] "
+              "R2=$P_UIFR[1,Y,FI] R3=$P_UIFR[1,C,TR] R4=$P_UIFR[1,Z,RT]\nFRM=CTRANS(Z,2)\nR5=FRM[Z,TR]\nFRM[Z,TR]=3\n"
+              "$P_UIFR[2]=FRM\nR6=$P_UIFR[2,Z,TR]\n$P_UIFR[3]=CTRANS(Y,1):CTRANS(Y,2)\n$P_UIFR[4]=$P_UIFR[3]\n"
+              "R8=$P_UIFR[4,Y,TR]\n");
+    const double millimetres = inch ? 25.4 : 1;
+    EXPECT_NEAR(world.r(1), 1, 1e-12);
+    EXPECT_NEAR(world.r(2), 0.5, 1e-12);
+    EXPECT_NEAR(world.r(3), 30, 1e-12);
+    EXPECT_NEAR(world.r(4), 10, 1e-9);
+    EXPECT_NEAR(world.r(5), 2, 1e-12);
+    EXPECT_NEAR(world.r(6), 3, 1e-12);
+    EXPECT_NEAR(world.r(8), 3, 1e-12);
+    EXPECT_NEAR(world.control.data.number({"$P_UIFR", {1, "X", "TR"}}), millimetres, 1e-12);
+    EXPECT_NEAR(world.control.data.number({"$P_UIFR", {1, "Y", "FI"}}), millimetres / 2, 1e-12);
+    EXPECT_NEAR(world.control.data.number({"$P_UIFR", {2, "Z", "TR"}}), 3 * millimetres, 1e-12);
+  }
+}
+
 TEST(SinumerikActiveFrames, G700ConvertsSystemVariablesAndFeedsG70DoesNot) {
   World world;
   world.run("G70 G500 G90 G0 X1 Y0 Z0\nTRANS X2\nR1=$AA_IW[X] R2=$P_PFRAME[X,TR]\nG1 X0 F100\n");

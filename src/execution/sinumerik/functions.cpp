@@ -75,7 +75,8 @@ Value subString(const Arguments& arguments) {
                      static_cast<std::size_t>(std::min(length, static_cast<double>(text.size()))));
 }
 
-Value frameFunctionValue(std::string_view name, const Arguments& arguments) {
+/// `unit`: mm in one unit of lengths.
+Value frameFunctionValue(std::string_view name, const Arguments& arguments, double unit) {
   std::vector<AxisValue> axes;
   if (name == "CRPL") {  // CRPL(plane, angle): 1 about Z, 2 about Y, 3 about X; 0 is refused
     const double plane = arguments.number(0);
@@ -84,8 +85,12 @@ Value frameFunctionValue(std::string_view name, const Arguments& arguments) {
     return frameValue(*control::sinumerik::frameFunction("CROT", axes));
   }
   const bool valueless = name == "CMIRROR";
-  for (std::size_t i = 0; i < arguments.count(); i += valueless ? 1 : 2)
-    axes.push_back({arguments.text(i), valueless ? 1 : arguments.number(i + 1)});
+  const bool length = name == "CTRANS" || name == "CFINE";
+  for (std::size_t i = 0; i < arguments.count(); i += valueless ? 1 : 2) {
+    const std::string& axis = arguments.text(i);
+    const double factor = length && control::sinumerik::geometryAxisOf(axis) ? unit : 1;
+    axes.push_back({axis, valueless ? 1 : factor * arguments.number(i + 1)});
+  }
   const auto frame = control::sinumerik::frameFunction(name, axes);
   if (!frame) throw Alarm("14020", frame.error().message, frame.error().advice);
   return frameValue(*frame);
@@ -257,7 +262,7 @@ std::optional<Value> callFunction(std::string_view name, std::span<const Value> 
   }
   if (name == "CTRANS" || name == "CFINE" || name == "CROT" || name == "CROTS" || name == "CSCALE" ||
       name == "CMIRROR" || name == "CRPL")
-    return frameFunctionValue(name, arguments);
+    return frameFunctionValue(name, arguments, questions.frameUnit);
   return std::nullopt;
 }
 

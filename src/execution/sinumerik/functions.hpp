@@ -26,6 +26,7 @@ struct FunctionQuestions {
   std::function<bool(std::string_view name)> isAxis;      ///< a channel axis of that name
   std::function<bool(std::string_view path)> isFile;
   std::function<int(std::string_view name)> toolNumber;  ///< GETT; -1: no such tool
+  double frameUnit = 1;                                  ///< mm in one unit of CTRANS and CFINE along geometry axes
 };
 
 /// Computes function `name` (upper case). Throws Alarm where the control raises one; std::nullopt if there is no such

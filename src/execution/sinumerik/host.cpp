@@ -155,6 +155,7 @@ Value SinumerikHost::call(std::string_view name, std::span<const Value> argument
       return -1;
     }
   };
+  questions.frameUnit = state_.variableUnit(control_.unit);
   if (auto value = callFunction(name, arguments, questions)) return *value;
   throw Alarm("12340", fmt::format("the function {} is not available here", name));
 }

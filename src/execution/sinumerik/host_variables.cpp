@@ -35,6 +35,11 @@ struct FrameComponent {
   std::size_t place = 0;  ///< of the frame in its variable
   std::string axis;
   control::sinumerik::FramePart part = control::sinumerik::FramePart::Translation;
+
+  bool isLength() const {
+    using control::sinumerik::FramePart;
+    return (part == FramePart::Translation || part == FramePart::Fine) && control::sinumerik::geometryAxisOf(axis);
+  }
 };
 
 /// Nothing if `indices` name a whole frame.
@@ -166,7 +171,8 @@ Value SinumerikHost::read(const ResolvedVariable& variable) {
   }
   if (const UserVariable* user = variables_.find(variable.name)) {
     if (const auto component = frameComponent(*user, variable.name, variable.indices))
-      return frameOf(user->at(component->place)).get(component->axis, component->part);
+      return frameOf(user->at(component->place)).get(component->axis, component->part) /
+             (component->isLength() ? state_.variableUnit(control_.unit) : 1);
     std::vector<double> indices;
     for (const Value& index : variable.indices)
       indices.push_back(numberOf(index, "an index"));
@@ -196,7 +202,8 @@ void SinumerikHost::write(const ResolvedVariable& variable, const Value& value) 
   if (UserVariable* user = variables_.find(variable.name)) {
     if (const auto component = frameComponent(*user, variable.name, variable.indices)) {
       control::sinumerik::Frame frame = frameOf(user->at(component->place));
-      frame.set(component->axis, component->part, numberOf(value, variable.name));
+      frame.set(component->axis, component->part,
+                numberOf(value, variable.name) * (component->isLength() ? state_.variableUnit(control_.unit) : 1));
       return user->set(component->place, frameValue(frame));
     }
     std::vector<double> indices;

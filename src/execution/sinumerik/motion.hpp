@@ -24,10 +24,12 @@ using control::sinumerik::Control;
 /// The modal state of a channel as far as motions need it.
 struct MotionState {
   language::MoveKind group1 = language::MoveKind::Linear;
-  bool incremental = false;           ///< G91
-  double feed = 0;                    ///< F as programmed
-  int feedType = 94;                  ///< 93, 94, 95, 96, 97
-  bool feedInInch = false;            ///< G700
+  bool incremental = false;  ///< G91
+  double feed = 0;           ///< F as programmed
+  int feedType = 94;         ///< 93, 94, 95, 96, 97
+  bool feedInInch = false;   ///< G700
+  /// Millimetres in one unit of system variables and frames: `unit`, that of positions, with G700 only.
+  double variableUnit(double unit) const { return feedInInch ? unit : 1; }
   double spindleSpeed = 0;            ///< S: rev/min; m/min with constant cutting speed
   bool constantCuttingSpeed = false;  ///< G96, G961, G962
   double speedLimit = 0;              ///< LIMS, rev/min; 0: none

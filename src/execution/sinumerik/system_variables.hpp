@@ -37,7 +37,7 @@ private:
   Value datum(std::string_view name, std::span<const Value> indices);
   control::sinumerik::Frame* activeFrame(std::string_view name);
   /// Millimetres in one unit of system variables: G700 converts them, G70 only what is in motions and frames.
-  double unit() const { return state_.feedInInch ? control_.unit : 1; }
+  double unit() const { return state_.variableUnit(control_.unit); }
 
   Control& control_;
   MotionState& state_;
