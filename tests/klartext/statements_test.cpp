@@ -124,6 +124,11 @@ TEST(Statements, SystemDataOfTheOlderControl) {
   expectFinished(newer.run("FN 17: SYSWRITE ID50 NR36 IDX5 = +21\nFN 18: SYSREAD Q5 = ID50 NR36 IDX5\n"));
   EXPECT_EQ(newer.q(5), 21);
   EXPECT_EQ(newer.control->tables.tools.text("5", "TYP"), "TCHP");
+  const RunResult unknown = newer.run("FN 17: SYSWRITE ID50 NR36 IDX5 = +77\n");
+  ASSERT_EQ(unknown.end, RunEnd::Alarm);
+  EXPECT_EQ(unknown.diagnostics.front().message,
+            "FN 17 writes the type of a tool (ID50 NR36) as 0, a mill, or 21, a touch probe, not as 77");
+  EXPECT_EQ(unknown.diagnostics.front().advice, "enter other types in the column TYP of TOOL.T");
 }
 
 // ---- moves ----

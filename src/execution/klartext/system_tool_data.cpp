@@ -42,8 +42,15 @@ double probeType(std::string_view name) {
   return found == models.end() ? 0 : static_cast<double>(found - models.begin());
 }
 
-/// The type of a tool by its number, as far as measuring programs know them; empty for any other.
-std::string_view toolTypeOf(double number) { return number == 0 ? "MILL" : number == 21 ? "TCHP" : std::string_view(); }
+/// The type of a tool by its number, as far as measuring programs know them. Throws Alarm for any other.
+std::string_view toolTypeOf(double number) {
+  if (number == 0) return "MILL";
+  if (number == 21) return "TCHP";
+  throw Alarm(
+      "System datum not available",
+      fmt::format("FN 17 writes the type of a tool (ID50 NR36) as 0, a mill, or 21, a touch probe, not as {}", number),
+      "enter other types in the column TYP of TOOL.T");
+}
 
 std::optional<NumberColumn> columnOf(int number) {
   const auto column = std::ranges::find(toolColumns, number, &ToolColumn::number);
@@ -240,12 +247,12 @@ void SystemData::write(const Command& command, Evaluation& evaluation) {
       const bool rowZero = index == 0 && !control_.isTNC640() && find(command.words, "IDX", evaluation) != nullptr;
       const std::string row = id == 950 || (index <= 0 && !rowZero) ? control_.tool.row : toolRowOf(index);
       const auto column = columnOf(number);
-      const std::string_view type = number == 36 ? toolTypeOf(value) : std::string_view();
-      if ((!column && type.empty()) || !control_.tables.tools.hasRow(row)) refuse();
-      if (type.empty()) {
+      const bool isType = number == 36;
+      if ((!column && !isType) || !control_.tables.tools.hasRow(row)) refuse();
+      if (!isType) {
         control_.writeNumber(control_.tables.tools, row, *column, value);
       } else if (control_.tables.tools.hasColumn("TYP")) {
-        control_.writeText(control_.tables.tools, row, "TYP", std::string(type));
+        control_.writeText(control_.tables.tools, row, "TYP", std::string(toolTypeOf(value)));
       } else {
         run_.leaveOut("The type of a tool, for which TOOL.T has no column TYP,");
       }
