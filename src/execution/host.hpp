@@ -68,6 +68,9 @@ public:
   /// Whether a program that was called modally (MCALL) is carried out after this block.
   virtual bool drivesModalCall(const Block&) const { return false; }
 
+  /// A modal call (MCALL) begins or ends.
+  virtual void modalCall([[maybe_unused]] bool inEffect) {}
+
   /// A number as texts show it: twelve significant digits at most, unless the control has its own way.
   virtual std::string numberText(double value) const;
 

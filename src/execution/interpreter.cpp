@@ -73,6 +73,7 @@ void Interpreter::clear() {
   frames_.clear();
   repeats_.clear();
   modal_.reset();
+  host_.modalCall(false);
   cache_.clear();
   current_ = nullptr;
   block_ = nullptr;

@@ -112,6 +112,7 @@ std::pair<BlockPosition, std::uint64_t> Interpreter::sectionOf(Program& program,
 void Interpreter::setModalCall(const CallProgram& call, Evaluation& evaluation) {
   if (call.name.length == 0) {
     modal_.reset();
+    host_.modalCall(false);
     return;
   }
   auto modal = std::make_unique<ModalCall>();
@@ -139,6 +140,7 @@ void Interpreter::setModalCall(const CallProgram& call, Evaluation& evaluation) 
   kept.source = kept.add(evaluation.at(evaluation.block().source));
   kept.instructions.emplace_back(copy);
   modal_ = std::move(modal);
+  host_.modalCall(true);
 }
 
 Interpreter::Flow Interpreter::callModally() {

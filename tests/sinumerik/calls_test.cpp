@@ -13,7 +13,12 @@ namespace {
 TEST(SinumerikCalls, ModalCallsFollowEachMotion) {
   World world;
   world.texts.add("COUNT", "PROC COUNT\nR10=R10+1\nRET\n");
-  world.run("R10=0\nMCALL COUNT\nR1=R10\nG0 X10\nR2=R10\nY10\nMSG(\"no motion\")\nM8\nR3=R10\nMCALL\nX20\nR4=R10\n");
+  world.run(
+      "R5=$P_MC\nR10=0\nMCALL COUNT\nR6=$P_MC\nR1=R10\nG0 X10\nR2=R10\nY10\nMSG(\"no "
+      "motion\")\nM8\nR3=R10\nMCALL\nX20\nR4=R10 R7=$P_MC\n");
+  EXPECT_EQ(world.r(5), 0);
+  EXPECT_EQ(world.r(6), 1) << "$P_MC: a modal call is in effect";
+  EXPECT_EQ(world.r(7), 0);
   EXPECT_EQ(world.r(1), 0);
   EXPECT_EQ(world.r(2), 1);
   EXPECT_EQ(world.r(3), 2);

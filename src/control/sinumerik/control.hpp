@@ -73,6 +73,7 @@ public:
   bool diameter = false;            ///< DIAMON: the X axis counts diameters
   double unit = 1;                  ///< mm in one program unit: 25.4 with G70/G700 on a metric control
   int level = 1;                    ///< program level
+  bool modalCall = false;           ///< MCALL is in effect
   bool radiusCompensation = false;  ///< G41 or G42 is active
   bool dryRun = false, programTest = false, blockSearch = false;
   std::string programPath;

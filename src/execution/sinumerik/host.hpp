@@ -54,6 +54,7 @@ public:
   Value call(std::string_view name, std::span<const Value> arguments) override;
   void execute(const language::Instruction& instruction, Evaluation& evaluation) override;
   bool drivesModalCall(const language::Block& block) const override;
+  void modalCall(bool inEffect) override { control_.modalCall = inEffect; }
   bool beginBlock(const language::Program& program, const language::Block& block) override;
   std::string code(Refusal refusal) const override;
   std::string numberText(double value) const override;

@@ -242,6 +242,7 @@ std::optional<Value> SystemVariables::readState(std::string_view name, std::span
   if (name == "$P_SEARCH" || name == "$P_SEARCHL") return number(control_.blockSearch ? 1 : 0);
   if (name == "$P_SIM") return number(0);
   if (name == "$P_STACK") return number(control_.level);
+  if (name == "$P_MC") return number(control_.modalCall ? 1 : 0);
   if (name == "$P_TRAFO" || name == "$AC_TRAFO") return number(control_.transformation ? 1 : 0);
   if (name == "$P_AXN1") return Value(std::string("X"));
   if (name == "$P_AXN2") return Value(std::string("Y"));
