@@ -108,6 +108,7 @@ Result<Connection> started(const std::string& command) {
     return fail(fmt::format("there is no socket for the machine adapter: {}", std::strerror(errno)));
   LineStream stream(ends[0]);
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words)
     arguments.push_back(word.data());
   arguments.push_back(nullptr);

@@ -477,7 +477,7 @@ bool isOnItsWay(const fs::path& file) {
 }
 
 Result<void> swapFiles(const FolderLock& lock, const Files& files, const std::set<std::string>& dropped,
-                       std::stop_token stop) {
+                       const std::stop_token& stop) {
   const std::string* blocked = nullptr;
   for (const auto& [name, content] : files) {
     if (isFolder(lock.folder() / name)) blocked = &name;

@@ -63,6 +63,6 @@ bool isOnItsWay(const std::filesystem::path& file);
 /// ends this, sees all of that or nothing of it; everything else in the folder stays as it is. Fails without a trace if
 /// something cannot be written or `stop` is asked for.
 Result<void> swapFiles(const FolderLock& lock, const std::vector<std::pair<std::string, Content>>& files,
-                       const std::set<std::string>& dropped, std::stop_token stop = {});
+                       const std::set<std::string>& dropped, const std::stop_token& stop = {});
 
 }  // namespace probewright

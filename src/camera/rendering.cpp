@@ -265,7 +265,8 @@ Layers Scenery::render(const Pose& tableFromCamera, std::span<const Vector3> lam
   for (std::size_t y = 0; y < height; ++y) {
     for (std::size_t x = 0; x < width; ++x) {
       for (int part = 0; part < raysAcross * raysAcross; ++part) {
-        const double across = (0.5 + part % raysAcross) / raysAcross, down = (0.5 + part / raysAcross) / raysAcross;
+        const int column = part % raysAcross, row = part / raysAcross;
+        const double across = (0.5 + column) / raysAcross, down = (0.5 + row) / raysAcross;
         const Vector3 ray = rayThrough(camera_, static_cast<double>(x) + across, static_cast<double>(y) + down);
         see(y * width + x, (tableFromCamera.linear() * ray.normalized()).cast<float>());
       }

@@ -6,7 +6,7 @@ namespace probewright::control {
 
 namespace {
 
-constexpr std::size_t blockSize = 64 * 1024;
+constexpr std::size_t blockSize = 65536;
 
 }  // namespace
 

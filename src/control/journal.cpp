@@ -33,7 +33,7 @@ std::uint64_t bytesOfResults(const CycleRecord& record) {
         sizeof result + bytesOf(result.name) + bytesOf(result.meaning) + bytesOf(result.unit) + bytesOf(result.label);
   for (const auto* texts : {&record.logFiles, &record.screens}) {
     for (const std::string& text : *texts)
-      bytes += sizeof text + bytesOf(text);
+      bytes += sizeof(std::string) + bytesOf(text);
   }
   return bytes;
 }
@@ -86,7 +86,7 @@ void Journal::interrupt(InterruptedMotion motion) {
   interrupted.push_back(motion);
 }
 
-void Journal::event(EventRecord record) {
+void Journal::event(const EventRecord& record) {
   charge(EventList::bytesOf(record));
   events.push_back(record);
 }

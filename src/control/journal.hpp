@@ -122,7 +122,7 @@ struct Journal {
   void fit(FitRecord record);
   /// The change goes to the open cycle, or to `writes`.
   void write(WriteRecord record);
-  void event(EventRecord record);
+  void event(const EventRecord& record);
   void interrupt(InterruptedMotion motion);
 
   /// Something else that the run leaves grows by so many bytes, a file for instance.

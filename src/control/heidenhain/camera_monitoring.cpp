@@ -87,6 +87,7 @@ std::shared_ptr<const vision::Average> MonitoringPoint::average() const {
     pictures.push_back(std::move(picture));
   }
   std::vector<const machine::Picture*> all;
+  all.reserve(pictures.size());
   for (const machine::Picture& picture : pictures)
     all.push_back(&picture);
   known_ = {std::move(references), settings.areas, nullptr};

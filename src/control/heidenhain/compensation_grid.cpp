@@ -113,7 +113,7 @@ Vector3 CompensationGrid::at(const machine::AxisPositions& axes) const {
 Result<void> CompensationGrid::enter(TypedTable& table) const {
   for (std::size_t i = 0; i < values_.size(); ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto set = table.setNumber(rows_[i], valueColumns[axis], values_[i][static_cast<Eigen::Index>(axis)] + 0.0);
+      auto set = table.setNumber(rows_[i], valueColumns[axis], values_[i][static_cast<Eigen::Index>(axis)] + 0.0);
       if (!set) return set;
     }
   }

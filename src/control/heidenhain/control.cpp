@@ -289,7 +289,7 @@ void Control::applyKinematics() {
       return Vector3(base + grid.at(axes));
     };
   } else if (!base.isZero(0)) {
-    channel.tipDeviation = [base](const machine::AxisPositions&) { return base; };
+    channel.tipDeviation = [base](const machine::AxisPositions&) { return Vector3(base); };
   }
   applyCoordinates();
 }

@@ -35,7 +35,7 @@ Control::Control(machine::Machine& machine, DataStore store, std::optional<machi
     : panel(journal),
       channel(machine, journal),
       data(std::move(store)),
-      told_(told ? std::move(*told) : machine.description()) {
+      told_(std::move(told).value_or(machine.description())) {
   channel.programUnit = &unit;
   channel.alarms = {"10720", "61302", "61302", "22066", "22050", "700000"};
   channel.onToolByHand = [this](const machine::ToolOrder& order, const std::string& detail) {

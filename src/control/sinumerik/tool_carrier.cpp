@@ -179,6 +179,7 @@ std::optional<ToolCarrier> carrierOf(const MachineDescription& machine) {
                  : head.empty() ? ToolCarrier::Kind::Table
                                 : ToolCarrier::Kind::Mixed;
   std::vector<const ChainElement*> axes;
+  axes.reserve(head.size() + table.size());
   for (const std::size_t place : head)
     axes.push_back(&machine.spindleChain[place]);
   for (const std::size_t place : table)
