@@ -217,8 +217,8 @@ Result<Comparison> compare(const Json& first, const Json& second, double toleran
     Entries all = before;
     all.insert(after.begin(), after.end());
     for (const auto& [where, unused] : all) {
-      const auto in = [&](const Entries& entries) {
-        const auto found = entries.find(where);
+      const auto in = [&place = where](const Entries& entries) {
+        const auto found = entries.find(place);
         return found == entries.end() ? std::string() : found->second;
       };
       ComparedEntry entry{.table = where.first, .entry = where.second, .first = in(before), .second = in(after)};

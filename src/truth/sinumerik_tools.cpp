@@ -120,7 +120,7 @@ LastWriter lastWriters(const WrittenValues& written) {
   LastWriter writers;
   for (const auto& [place, value] : written) {
     const auto dimension =
-        std::ranges::find_if(dimensions, [&](const ToolDimension& each) { return each.of(place.first); });
+        std::ranges::find_if(dimensions, [&edge = place.first](const ToolDimension& each) { return each.of(edge); });
     const std::vector<int> numbers = indicesOf(place.second);
     if (dimension == std::end(dimensions) || numbers.size() != 2) continue;
     const EdgeName name{numbers[0], numbers[1], control::sinumerik::offsetNumber(place.first).value_or(0)};

@@ -28,7 +28,6 @@ class Checker {
 public:
   Checker(HeidenhainProgram& program, control::ControlKind kind, ProgramLibrary* library, bool skips, bool foresees)
       : program_(program),
-        kind_(kind),
         library_(library),
         notes_(kind),
         calls_(kind, foresees),
@@ -273,7 +272,6 @@ private:
   void look(const Other&) {}
 
   HeidenhainProgram& program_;
-  control::ControlKind kind_;
   ProgramLibrary* library_;
   StatementNotes notes_;
   CallCheck calls_;
