@@ -20,6 +20,7 @@
 #include "simulation/cad_solid.hpp"
 #include "simulation/cad_step_library.hpp"
 #include "simulation/step_records.hpp"
+#include "simulation/step_text.hpp"
 #include "worlds.hpp"
 #include "written_step.hpp"
 
@@ -157,13 +158,18 @@ TEST(StepRecords, GiveTheSameShapeAsOpenCascadesScanner) {
 TEST(StepRecords, OfDamagedFilesAreTheSameAsOpenCascadesOrLeftToIt) {
   std::mt19937_64 random(31);
   constexpr std::string_view characters = "0123456789#,()'.$*A;E ";
-  int quick = 0, left = 0, endless = 0;
+  int quick = 0, left = 0, refused = 0, endless = 0;
   for (const std::string& good : sampleFiles()) {
     for (int i = 0; i < 150; ++i) {
       std::string bad = good;
       bad[random() % bad.size()] = characters[random() % characters.size()];
       if (!StepRecords::of(bad)) {
         ++left;
+        continue;
+      }
+      // Where a number stands twice OpenCASCADE reads memory that nobody has set: an import refuses such a file before.
+      if (!scanStep(bad, "part.step")) {
+        ++refused;
         continue;
       }
       ++quick;
@@ -187,7 +193,9 @@ TEST(StepRecords, OfDamagedFilesAreTheSameAsOpenCascadesOrLeftToIt) {
   }
   EXPECT_GT(quick, 100);
   EXPECT_GT(left, 20);
-  EXPECT_LT(endless, 5);
+  EXPECT_GT(refused, 0);
+  EXPECT_LT(refused, quick / 10);
+  EXPECT_EQ(endless, 0);
 }
 
 }  // namespace
