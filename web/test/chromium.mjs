@@ -41,6 +41,18 @@ after(async () => {
   rmSync(userDataDir, { recursive: true, force: true, maxRetries: 3 });
 });
 
+/** Pages of this one come without 3D graphics: drawing in software is most of the time that a page takes, and tests of its text need none. */
+export const withoutGraphics = (page) =>
+  page.evaluateOnNewDocument(() => {
+    const original = HTMLCanvasElement.prototype.getContext;
+    HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+      return kind.startsWith("webgl") ? null : original.call(this, kind, ...rest);
+    };
+  });
+
+/** The place of the picture, drawn or not. */
+export const stageIsThere = (page) => page.waitForSelector(".stage canvas, .stage .empty");
+
 /** Until nothing in the page has moved for a few frames. */
 export const settle = (page, milliseconds = 200) =>
   page.evaluate((more) => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, more)))), milliseconds);

@@ -6,7 +6,7 @@ import { mkdirSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { test } from "node:test";
 import { pathToFileURL } from "node:url";
-import { browser, settle } from "./chromium.mjs";
+import { browser, settle, withoutGraphics } from "./chromium.mjs";
 
 const [samples, pictures] = process.argv.slice(2);
 if (pictures) mkdirSync(pictures, { recursive: true });
@@ -366,12 +366,7 @@ test("texts that look like markup", async () => {
 test("a browser without 3D graphics", async () => {
   const page = await browser.newPage();
   await page.setViewport({ width: 1400, height: 900 });
-  await page.evaluateOnNewDocument(() => {
-    const original = HTMLCanvasElement.prototype.getContext;
-    HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
-      return kind.startsWith("webgl") ? null : original.call(this, kind, ...rest);
-    };
-  });
+  await withoutGraphics(page);
   await page.goto(pathToFileURL(resolve(samples, "rework.html")).href);
   await page.waitForSelector(".stage .empty");
   assert.match(await text(page, ".stage"), /shows no 3D graphics/);

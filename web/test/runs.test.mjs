@@ -7,7 +7,7 @@ import { existsSync, mkdirSync, readFileSync, statSync, writeFileSync } from "no
 import { join, resolve } from "node:path";
 import { test } from "node:test";
 import { pathToFileURL } from "node:url";
-import { browser, settle } from "./chromium.mjs";
+import { browser, settle, stageIsThere, withoutGraphics } from "./chromium.mjs";
 import { scrolled } from "./scrolled.mjs";
 
 const [runs, stored, screenshots] = process.argv.slice(2);
@@ -15,7 +15,7 @@ const update = process.env.PROBEWRIGHT_UPDATE_PICTURES === "1";
 
 if (screenshots) mkdirSync(screenshots, { recursive: true });
 
-async function open(run, { width = 1400, height = 900, dark = false } = {}) {
+async function open(run, { width = 1400, height = 900, dark = false, graphics = true } = {}) {
   const page = await browser.newPage();
   const problems = [];
   page.on("pageerror", (error) => problems.push(String(error)));
@@ -23,8 +23,9 @@ async function open(run, { width = 1400, height = 900, dark = false } = {}) {
   page.setDefaultNavigationTimeout(120_000);
   await page.setViewport({ width, height });
   await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: dark ? "dark" : "light" }]);
+  if (!graphics) await withoutGraphics(page);
   await page.goto(pathToFileURL(resolve(runs, run, "report.html")).href);
-  await page.waitForSelector(".stage canvas");
+  await page.waitForSelector(graphics ? ".stage canvas" : ".stage .empty");
   await settle(page);
   return { page, problems };
 }
@@ -168,7 +169,7 @@ test("the clearance is a curve over time, and told where the replay is", async (
 
 for (const width of [1400, 800]) {
   test(`no text of the sheet runs into its neighbour in any language, ${width} px`, async () => {
-    const { page, problems } = await open("housing", { width, height: 1000 });
+    const { page, problems } = await open("housing", { width, height: 1000, graphics: false });
     assert.ok(await page.$(".with-truth .row"));
     for (const code of ["de", "ru", "sv", "zh", "pl", "en"]) {
       await page.select(".page-buttons select", code);
@@ -183,11 +184,11 @@ for (const width of [1400, 800]) {
 }
 
 test("alarms and cycles speak the language of the page", async () => {
-  const { page, problems } = await open("alarm");
+  const { page, problems } = await open("alarm", { graphics: false });
   const heads = new Set();
   for (const [code, name] of [["de", "Antastpunkt nicht erreichbar"], ["ru", "Точка касания недоступна"], ["sv", "Avkänningspunkt kan ej nås"], ["zh", "触点不可达"], ["pl", "Punkt próbkowania nieosiągalny"], ["en", "Touch point inaccessible"]]) {
     await page.select(".page-buttons select", code);
-    await page.waitForSelector(".stage canvas");
+    await stageIsThere(page);
     await settle(page);
     assert.ok((await text(page, ".headline")).includes(name), `${code}: ${await text(page, ".headline")}`);
     assert.ok((await text(page, ".notes .note.alarm")).includes(name), code);
