@@ -78,7 +78,10 @@ void ToSinumerik::turnByPair(const MeasuringTask& pair, const std::vector<Centre
 
 Place ToSinumerik::holePattern(const Block& block, const MeasuringTask& given, const std::string& heidenhainCycle) {
   MeasuringTask pattern = given;
-  if (pattern.correction != Correction::None) listRowAfterZero(block, pattern.row);
+  if (pattern.correction != Correction::None) {
+    listRowAfterZero(block, pattern.row);
+    listLackingRow(block, pattern.row);
+  }
   if (pattern.correction != Correction::None && pattern.row == 0) {
     takeRowZero();
     pattern.row = 99;

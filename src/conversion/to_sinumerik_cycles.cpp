@@ -187,7 +187,10 @@ void ToSinumerik::approach(const Place& start, const Quantity& clearance) {
 Place ToSinumerik::task(const Block& block, const MeasuringTask& given, const std::string& heidenhainCycle) {
   MeasuringTask task = given;
   const bool corrects = task.correction != Correction::None;
-  if (corrects && !task.active) listRowAfterZero(block, task.row);
+  if (corrects && !task.active) {
+    listRowAfterZero(block, task.row);
+    listLackingRow(block, task.row);
+  }
   if (corrects && !task.active && task.row == 0) {
     takeRowZero();
     task.row = 99;
@@ -378,6 +381,7 @@ void ToSinumerik::listRowAfterZero(const Block& block, const Quantity& row) {
 void ToSinumerik::basicRotation(const Block& block, const Call& call) {
   Quantity row = call.has("Q305") ? call.number("Q305") : Quantity(-1);
   listRowAfterZero(block, row);
+  listLackingRow(block, row);
   if (row == 0) takeRowZero();
   if (!row.isNumber()) row = runningRow(row, RowZero::Preset);
   const bool active = row.isNumber() && row.number() <= 0;

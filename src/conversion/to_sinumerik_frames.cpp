@@ -64,6 +64,7 @@ void ToSinumerik::transform(const Block& block, const Transform& transform) {
     if (!frame_.isNone()) out_.line("TRANS");
     frame_ = {};
     activeRow_ = number == 0 ? 99 : number;
+    selectedRows_.insert(number);
     forgetPosition();
     return;
   }
@@ -139,6 +140,7 @@ void ToSinumerik::follow(const Block& block, Modes& modes) {
       modes.shift = std::array<double, 3>{};
       modes.rotation = 0;
       modes.row = first ? std::optional(*first == 0 ? 99 : static_cast<int>(*first)) : std::nullopt;
+      if (first) modes.selected.insert(static_cast<int>(*first));
     } else if (isShift(kind)) {
       std::array<bool, 3> given{};
       std::array<double, 3> absolute{};
@@ -179,6 +181,7 @@ bool ToSinumerik::agree(Modes& with, const Modes& other) {
   meet(with.shift, other.shift);
   meet(with.rotation, other.rotation);
   meet(with.row, other.row);
+  std::erase_if(with.selected, [&](int row) { return !other.selected.contains(row); });
   return !(with == before);
 }
 
@@ -269,6 +272,7 @@ void ToSinumerik::adopt(const Block& block) {
   for (std::size_t i = 0; i < 3; ++i)
     frame_.shift[i] = modes.shift ? (*modes.shift)[static_cast<std::size_t>(axis(i)[0] - 'X')] : 0;
   activeRow_ = modes.row;
+  selectedRows_ = modes.selected;
   arcDirection_ = 0;
 }
 
