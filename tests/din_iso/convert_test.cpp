@@ -120,6 +120,32 @@ TEST(Convert, NamesAndKeepsWhatHasNoTwin) {
             "N60 ; NOT CARRIED OVER: 6 TCH PROBE 3.3 DIST +10 F100 MB1 *\nN99999999 %A G71 *\n");
 }
 
+/// Values for the PLC and for the printer stand behind P01, P02... in DIN/ISO, between slashes in Klartext.
+TEST(Convert, GivesListsOfValuesTheFormOfTheLanguage) {
+  const std::pair<const char*, const char*> twins[] = {
+      {"D19 P01 +1", "FN 19: PLC=+1"},
+      {"D19 P01 +10 P02 +Q3", "FN 19: PLC=+10/+Q3"},
+      {"D29 P01 +1 P02 -Q2 P03 +4 P04 +5 P05 +6 P06 +7 P07 +8 P08 -9.5", "FN 29: PLC=+1/-Q2/+4/+5/+6/+7/+8/-9.5"}};
+  for (const auto& [dinIso, klartext] : twins) {
+    const Conversion there = toKlartext("%A G71 *\nN10 " + std::string(dinIso) + " *\nN99 %A G71 *\n");
+    EXPECT_EQ(there.text, "0 BEGIN PGM A MM\n1 " + std::string(klartext) + "\n2 END PGM A MM\n");
+    EXPECT_TRUE(there.notCarriedOver.empty());
+    const Conversion back = toDinIso("0 BEGIN PGM A MM\n1 " + std::string(klartext) + "\n2 END PGM A MM\n");
+    EXPECT_EQ(back.text, "%A G71 *\nN10 " + std::string(dinIso) + " *\nN99999999 %A G71 *\n");
+    EXPECT_TRUE(back.notCarriedOver.empty());
+  }
+  EXPECT_THAT(toKlartext("%A G71 *\nN10 D15 P01 1 P02 +Q1 *\nN99 %A G71 *\n").text, HasSubstr("FN 15: PRINT +1/+Q1\n"));
+  EXPECT_THAT(toKlartext("%A G71 *\nN10 D15 P01 20 *\nN99 %A G71 *\n").text, HasSubstr("FN 15: PRINT 20\n"));
+  // The older form of the same, and what neither language has.
+  EXPECT_THAT(toKlartext("%A G71 *\nN10 D19: PLC = +10 / +Q3 *\nN99 %A G71 *\n").text,
+              HasSubstr("FN 19: PLC=+10/+Q3\n"));
+  for (const char* wrong : {"D19 +1", "D19 P01 +1 P02", "D19 P01 +1 P03 +2", "D19 P01 +1 P02 +2 P03 +3", "D29 P01 X"})
+    EXPECT_EQ(toKlartext("%A G71 *\nN10 " + std::string(wrong) + " *\nN99 %A G71 *\n").mistakes.size(), 1U) << wrong;
+  for (const char* wrong : {"FN 19: PLC", "FN 19: PLC=", "FN 19: PLC=+1/", "FN 19: PLC=+1/+2/+3", "FN 29: PLC +1"})
+    EXPECT_EQ(toDinIso("0 BEGIN PGM A MM\n1 " + std::string(wrong) + "\n2 END PGM A MM\n").mistakes.size(), 1U)
+        << wrong;
+}
+
 TEST(Convert, WarnsWhereTheOrderOfTheRunDecides) {
   const Conversion conversion = toKlartext(
       "%A G71 *\nN10 G00 G90 X+0 *\nN20 G91 *\nN30 L1 *\nN40 G00 G90 X+1 *\nN50 M30 *\nN60 G98 L1 *\nN70 X+5 *\n"

@@ -68,6 +68,7 @@ std::map<std::string, std::vector<Pair>> examples() {
       {"D00 to D38 with P01, P02, P03; Dnn: with the words of Klartext",
        {{"D00 Q5 P01 +60 *", "FN 0: Q5 = +60"},
         {"D09 P01 +Q1 P02 +Q3 P03 5 *", "FN 9: IF +Q1 EQU +Q3 GOTO LBL 5"},
+        {"D19 P01 +10 P02 +Q3 *", "FN 19: PLC=+10/+Q3"},
         {"D18: SYSREAD Q25 = ID210 NR4 IDX3 *", "FN 18: SYSREAD Q25 = ID210 NR4 IDX3"}}},
       {"Q1 = ...", {{"Q1 = Q2 * SIN Q3 + 4 *", "Q1 = Q2 * SIN Q3 + 4"}}},
       {"G04 F; G36 S; G38; G39 P01; G62 T P01 P02",

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "language/din_iso/parser.hpp"
+#include "language/klartext/writer.hpp"
 
 /// D00 to D38, the twins of FN 0 to FN 38. "Dnn:" is followed by what stands after FN nn in Klartext.
 namespace probewright::language::din_iso {
@@ -53,12 +54,11 @@ bool BlockParser::function() {
       return expectEnd();
     }
     case 15:
-      parameterAddress(1);
-      lexer_.acceptKeyword("PRINT");
-      return textCommand(CommandKind::Fn15);
+      return printing();
     case 19:
-    case 20:
     case 29:
+      return valuesForPlc(number);
+    case 20:
       parameterAddress(1);
       return textCommand(klartext::functionCommand(number));
     case 18:
@@ -109,6 +109,38 @@ bool BlockParser::jumpOf(int number) {
   if (!parameterAddress(3)) return error("P03 with the label to jump to is expected here");
   if (!labelName(jump.label, jump.labelValue)) return false;
   emit(jump);
+  return expectEnd();
+}
+
+/// D15 P01 20; D15 P01 1 P02 +Q1: what stands between the slashes of FN 15: PRINT 1/+Q1.
+bool BlockParser::printing() {
+  const bool byAddresses = parameterAddress(1);
+  lexer_.acceptKeyword("PRINT");
+  const std::size_t begin = lexer_.offset();
+  const std::string_view rest = lexer_.restOfBlock();
+  lexer_.seek(begin);
+  if (!byAddresses || rest.find("P02") == std::string_view::npos) return textCommand(CommandKind::Fn15);
+  std::string text;
+  for (int i = 1; i == 1 || !lexer_.atEnd(); ++i) {
+    const std::optional<Operand> each = i == 1 ? value("P01") : parameterValue(i);
+    if (!each) return false;
+    text += (text.empty() ? "" : "/") + klartext::writeValue(block_, *each);
+  }
+  emit(Command{constant(nameOf(CommandKind::Fn15)), constant(text), -1, {}});
+  return true;
+}
+
+/// D19 P01 +10 P02 +Q3; D29 with P01 to P08.
+bool BlockParser::valuesForPlc(int number) {
+  const std::size_t first = block_.words.size();
+  const int most = static_cast<int>(klartext::mostPlcValues(number));
+  for (int i = 1; i == 1 || !lexer_.atEnd(); ++i) {
+    if (i > most) return error(fmt::format("D{} hands over at most {} values, P01 to P{:02}", number, most, most));
+    const std::optional<Operand> each = parameterValue(i);
+    if (!each) return false;
+    addWord(static_cast<std::uint32_t>(i), *each);
+  }
+  emit(Command{constant(nameOf(klartext::functionCommand(number))), {}, -1, wordsSince(first)});
   return expectEnd();
 }
 

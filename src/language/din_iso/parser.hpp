@@ -84,6 +84,8 @@ private:
   bool assignmentOf(int number);
   bool jumpOf(int number);
   bool systemRead();
+  bool printing();
+  bool valuesForPlc(int number);
   std::optional<Operand> parameterValue(int number);
   bool parameterAddress(int number);
 

@@ -356,6 +356,12 @@ private:
     const std::span<const Word> words = wordsOf(command.words);
     if (kind == CommandKind::BlankForm) return blankForm(text);
     if (kind == CommandKind::Fn14) return word(fmt::format("D14 P01 {}", value(words[0].value)));
+    if (kind == CommandKind::Fn19 || kind == CommandKind::Fn29) {
+      word(fmt::format("D{}", name.substr(2)));
+      for (const Word& w : words)
+        word(fmt::format("P{:02} {}", w.address, value(w.value)));
+      return;
+    }
     if (kind == CommandKind::Fn16) return word(fmt::format("D16 P01 F-PRINT {}", text));
     if (kind == CommandKind::SetUndefined) {
       return word(fmt::format("D00 {} SET UNDEFINED",

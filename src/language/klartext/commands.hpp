@@ -109,6 +109,9 @@ CommandKind functionCommand(int number);
 CommandKind kindOf(const Block& block, const Command& command);
 TransformKind kindOf(const Block& block, const Transform& transform);
 
+/// How many values FN 19 and FN 29 hand over to the PLC at most.
+constexpr unsigned mostPlcValues(int number) { return number == 19 ? 2 : 8; }
+
 /// True for FN 14 to FN 38.
 bool isFunction(CommandKind kind);
 /// True for PLANE and TRANS.

@@ -422,16 +422,21 @@ std::string writeCommand(const Block& block, const Command& command) {
                        writeFormula(block, words[1].value), entry);
   }
   if (kind == CommandKind::Error) return fmt::format("ERROR = {}", text);
+  if (kind == CommandKind::Fn19 || kind == CommandKind::Fn29) {
+    std::string values;
+    for (const Word& each : words)
+      values += (values.empty() ? "" : "/") + writeValue(block, each.value);
+    return fmt::format("FN {}: PLC={}", name.substr(2), values);
+  }
   if (isFunction(kind)) {
     const std::string_view number = name.substr(2);
-    const std::string_view keyword = number == "15"                     ? "PRINT "
-                                     : number == "16"                   ? "F-PRINT "
-                                     : number == "20"                   ? "WAIT FOR "
-                                     : number == "26"                   ? "TABOPEN "
-                                     : number == "37"                   ? "EXPORT "
-                                     : number == "38"                   ? "SEND "
-                                     : number == "19" || number == "29" ? "PLC"
-                                                                        : "";
+    const std::string_view keyword = number == "15"   ? "PRINT "
+                                     : number == "16" ? "F-PRINT "
+                                     : number == "20" ? "WAIT FOR "
+                                     : number == "26" ? "TABOPEN "
+                                     : number == "37" ? "EXPORT "
+                                     : number == "38" ? "SEND "
+                                                      : "";
     return fmt::format("FN {}: {}{}", number, keyword, text);
   }
   return text.empty() ? std::string(name) : fmt::format("{} {}", name, text);

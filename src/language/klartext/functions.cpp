@@ -42,15 +42,16 @@ bool BlockParser::functionBody(int number) {
     case 27:
     case 28:
       return functionTable(number);
+    case 19:
+    case 29:
+      return functionPlc(number);
     case 14:
     case 15:
     case 16:
-    case 19:
     case 20:
     case 21:
     case 22:
     case 26:
-    case 29:
     case 37:
     case 38:
       return functionText(number);
@@ -332,6 +333,20 @@ bool BlockParser::functionTable(int number) {
   return expectEnd();
 }
 
+bool BlockParser::functionPlc(int number) {
+  const std::uint32_t most = mostPlcValues(number);
+  const std::size_t first = block_.words.size();
+  if (!lexer_.acceptPrefix("PLC")) return error("PLC is expected here");
+  if (!expect('=', "PLC")) return false;
+  std::uint32_t count = 0;
+  do {
+    if (count == most) return error(fmt::format("FN {} hands over at most {} values", number, most));
+    if (!word(++count, "PLC")) return false;
+  } while (lexer_.accept('/'));
+  emit(Command{constant(nameOf(functionCommand(number))), {}, -1, wordsSince(first)});
+  return expectEnd();
+}
+
 /// Functions whose text the host reads itself: FN 14: ERROR = 254 as a word, all others as they stand.
 bool BlockParser::functionText(int number) {
   if (number == 14) {
@@ -346,15 +361,8 @@ bool BlockParser::functionText(int number) {
     int number;
     std::string_view text;
   };
-  static constexpr std::array<Keyword, 9> keywords = {{{15, "PRINT"},
-                                                       {16, "F-PRINT"},
-                                                       {19, "PLC"},
-                                                       {20, "WAIT FOR"},
-                                                       {26, "TABOPEN"},
-                                                       {29, "PLC"},
-                                                       {37, "EXPORT"},
-                                                       {38, "SEND"},
-                                                       {0, ""}}};
+  static constexpr std::array<Keyword, 7> keywords = {
+      {{15, "PRINT"}, {16, "F-PRINT"}, {20, "WAIT FOR"}, {26, "TABOPEN"}, {37, "EXPORT"}, {38, "SEND"}, {0, ""}}};
   for (const Keyword& keyword : keywords) {
     if (keyword.number == number && !lexer_.acceptPrefix(keyword.text)) {
       return error(std::string(keyword.text) + " is expected here");

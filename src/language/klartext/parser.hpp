@@ -130,6 +130,9 @@ protected:
   bool functionPreset();
   bool functionTable(int number);
   bool functionText(int number);
+  /// FN 19: PLC=+10/+Q3 from "PLC" on; FN 19 hands over 1 or 2 values, FN 29 1 to 8. The words have the addresses 1
+  /// to 8.
+  bool functionPlc(int number);
 
   // cycles.cpp
   bool touchProbe();
