@@ -196,6 +196,14 @@ TEST(Check, WhatTheControlDoesNotHave) {
   EXPECT_EQ(mistakes("1 FN 18: SYSREAD Q1 = ID503 NR1 IDX1\n", newer),
             "a.h:2:3: warning: FN 18 cannot read ID503 NR1 here: the run stops at this block");
   EXPECT_EQ(mistakes("1 FN 18: SYSREAD Q1 = ID503 NR1 IDX1\n", older), "");
+  EXPECT_EQ(mistakes("1 FN 18: SYSREAD Q1 = ID210 NR5 IDX4\n", newer),
+            "a.h:2:3: warning: FN 18 cannot read ID210 NR5 IDX4 here: the run stops at this block");
+  EXPECT_EQ(mistakes("1 FN 17: SYSWRITE ID50 NR36 IDX5 = +3\n", newer),
+            "a.h:2:3: warning: FN 17 cannot write ID50 NR36 = 3: the run stops at this block");
+  EXPECT_EQ(
+      mistakes("1 FN 17: SYSWRITE ID50 NR36 IDX5 = +3\n", older),
+      "a.h:2:3: warning: FN 17 cannot write ID50 NR36 = 3: the run stops at this block if TOOL.T has a column TYP");
+  EXPECT_EQ(mistakes("1 FN 17: SYSWRITE ID50 NR36 IDX5 = +21\n", older), "");
   EXPECT_EQ(mistakes("1 FN 17: SYSWRITE ID210 NR1 IDX1 = +5\n", older),
             "a.h:2:3: warning: FN 17 cannot write ID210 NR1 here: the run stops at this block");
   EXPECT_EQ(mistakes("1 PLANE AXIAL B+30 TURN FMAX SEQ+\n", newer),

@@ -53,7 +53,8 @@ std::map<int, std::set<int>> documented() {
 }
 
 bool known(int id, int number) {
-  return canRead(id, number, control::ControlKind::TNC640) || canRead(id, number, control::ControlKind::iTNC530);
+  return canRead(id, number, {}, control::ControlKind::TNC640) ||
+         canRead(id, number, {}, control::ControlKind::iTNC530);
 }
 
 TEST(DocumentedSystemData, AreThoseThatFn18Reads) {

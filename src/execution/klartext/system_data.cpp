@@ -176,7 +176,7 @@ std::optional<double> SystemData::touchData(int number, int index) const {
   const control::TouchRecord* touch = lastTouch(control_.journal);
   if (touch == nullptr) return std::nullopt;
   if (number == 11) return touch->outcome == "touched" ? 0 : touch->outcome == "deflected" ? -2 : -1;
-  if (index < 1 || index > 9) return std::nullopt;
+  if (number < 1 || number > 4 || index < 1 || index > 9) return std::nullopt;
   const control::Channel& channel = control_.channel;
   const auto axis = channel.description().axisIndex(axisNames.substr(static_cast<std::size_t>(index - 1), 1));
   if (number == 2) return axis ? std::optional<double>(touch->latched[*axis]) : std::nullopt;

@@ -264,13 +264,13 @@ void SystemData::write(const Command& command, Evaluation& evaluation) {
     }
     case 500: {
       const auto table = control_.tables.datums.find(control_.activeDatumTable);
-      if (table == control_.tables.datums.end() || whole < 1 || whole > 9) refuse();
+      if (table == control_.tables.datums.end() || number < 0 || whole < 1 || whole > 9) refuse();
       control_.writeNumber(table->second, std::to_string(number),
                            NumberColumn::named(axisNames.substr(static_cast<std::size_t>(whole - 1), 1)), value);
       break;
     }
     case 503: {  // as the table shows them: machine coordinates
-      if (control_.isTNC640() || whole < 1 || whole > 6) refuse();
+      if (control_.isTNC640() || number < 0 || whole < 1 || whole > 6) refuse();
       const auto axis =
           control_.channel.description().axisIndex(axisNames.substr(static_cast<std::size_t>(whole - 1), 1));
       control::heidenhain::Control::PresetChange change;
@@ -285,6 +285,7 @@ void SystemData::write(const Command& command, Evaluation& evaluation) {
       break;
     }
     case 507: {
+      if (number < 0) refuse();
       control::heidenhain::Control::PresetChange change;
       if (whole >= 1 && whole <= 3) {
         change.origin[static_cast<std::size_t>(whole - 1)] = value;
@@ -301,7 +302,7 @@ void SystemData::write(const Command& command, Evaluation& evaluation) {
           whole >= 4 && whole <= 6
               ? control_.channel.description().axisIndex(axisNames.substr(static_cast<std::size_t>(whole - 1), 1))
               : std::optional<std::size_t>();
-      if (!axis) refuse();
+      if (!axis || number < 0) refuse();
       control::heidenhain::Control::PresetChange change;
       change.rotaryOffset[*axis] = value;
       control_.writePreset(number, change);

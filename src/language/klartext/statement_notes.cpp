@@ -126,17 +126,40 @@ void StatementNotes::look(const Block& block, const LabelMark& mark) {
 
 void StatementNotes::systemDatum(const Block& block, const Command& command) {
   const bool reads = kindOf(block, command) == CommandKind::Fn18;
-  int id = 0, number = 0;
-  for (const Word& word : wordsOf(block, command.words)) {
-    if (word.address != addressOf("ID") && word.address != addressOf("NR")) continue;
-    if (!word.value.isLiteral() || std::abs(word.value.number) > 1e6) return;
-    (word.address == addressOf("ID") ? id : number) = static_cast<int>(std::lround(word.value.number));
+  const std::span<const Word> words = wordsOf(block, command.words);
+  /// The number of a word, 0 where it does not stand; nothing if it is computed.
+  const auto numberOf = [&](std::string_view address) -> std::optional<double> {
+    const auto word = std::ranges::find(words, addressOf(address), &Word::address);
+    if (word == words.end()) return 0;
+    const bool known = word->value.isLiteral() && std::abs(word->value.number) <= 1e6;
+    return known ? std::optional(word->value.number) : std::nullopt;
+  };
+  const auto id = numberOf("ID"), number = numberOf("NR"), index = numberOf("IDX"), value = numberOf("VAL");
+  if (!id || !number) return;
+  const auto whole = [](double from) { return static_cast<int>(std::lround(from)); };
+  const auto known = [&](std::optional<int> place) {
+    return reads ? canRead(whole(*id), whole(*number), place, kind_)
+                 : canWrite(whole(*id), whole(*number), place, kind_);
+  };
+  const std::string datum = fmt::format("ID{} NR{}", whole(*id), whole(*number));
+  if (!known(std::nullopt)) {
+    note(Severity::Warning,
+         fmt::format("FN {} cannot {} {} here: the run stops at this block", reads ? 18 : 17, reads ? "read" : "write",
+                     datum),
+         "use another system datum, or set the parameter to a fixed value");
+  } else if (index && !known(whole(*index))) {
+    note(Severity::Warning,
+         fmt::format("FN {} cannot {} {} IDX{} here: the run stops at this block", reads ? 18 : 17,
+                     reads ? "read" : "write", datum, whole(*index)),
+         "give the IDX of an axis, row or parameter that the datum has");
+  } else if (!reads && (whole(*id) == 50 || whole(*id) == 950) && whole(*number) == 36 && value &&
+             !isToolType(*value)) {
+    // The newer control has the column always.
+    note(Severity::Warning,
+         fmt::format("FN 17 cannot write {} = {}: the run stops at this block{}", datum, formatShortest(*value),
+                     kind_ == control::ControlKind::TNC640 ? "" : " if TOOL.T has a column TYP"),
+         "write 0, a mill, or 21, a touch probe; enter other types in the column TYP of TOOL.T");
   }
-  if (reads ? canRead(id, number, kind_) : canWrite(id, number, kind_)) return;
-  note(Severity::Warning,
-       fmt::format("FN {} cannot {} ID{} NR{} here: the run stops at this block", reads ? 18 : 17,
-                   reads ? "read" : "write", id, number),
-       "use another system datum, or set the parameter to a fixed value");
 }
 
 void StatementNotes::globalDefinition(const Block& block, const Command& command) {
