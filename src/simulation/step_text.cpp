@@ -17,10 +17,51 @@ constexpr std::size_t kDeepest = 64;
 
 bool isNameLetter(char c) { return isLetter(c) || isDigit(c) || c == '_' || c == '!'; }
 
+constexpr std::string_view kBlanks = " \t\r\n";
+
+/// What ends a text.
+enum class TextEnd : std::uint8_t {
+  Standard,    ///< a quote; a doubled one is a letter
+  BeforeSign,  ///< a quote before a comma or a closing bracket, as OpenCASCADE takes it: others are letters
+};
+
+bool isBeforeSign(std::string_view bytes, std::size_t at, std::string_view signs) {
+  const std::size_t next = bytes.find_first_not_of(kBlanks, at);
+  return next != std::string_view::npos && signs.find(bytes[next]) != std::string_view::npos;
+}
+
+/// The place behind the text that begins with the quote at `begin`; npos if it has no end.
+std::size_t endOfText(std::string_view bytes, std::size_t begin, TextEnd by) {
+  for (std::size_t at = begin; (at = bytes.find('\'', at + 1)) != std::string_view::npos;) {
+    if (by == TextEnd::BeforeSign && isBeforeSign(bytes, at + 1, ",)")) return at + 1;
+    if (by == TextEnd::BeforeSign) continue;
+    if (at + 1 == bytes.size() || bytes[at + 1] != '\'') return at + 1;
+    ++at;
+  }
+  return std::string_view::npos;
+}
+
+/// False where a text by the standard cannot end: within it stands a quote that is not doubled.
+bool mayEndText(std::string_view bytes, std::size_t at) { return isBeforeSign(bytes, at, ",);/"); }
+
+bool beginsWith(std::string_view text, std::string_view capitals) {
+  return upperCase(text.substr(0, capitals.size())) == capitals;
+}
+
+constexpr std::string_view kEnd = "END-ISO-10303-21";
+
+tl::unexpected<Diagnostic> cutShort(const std::string& file, std::uint64_t line) {
+  return fail({file, line, 0}, fmt::format("the STEP file ends before {}", kEnd),
+              "the file was cut short; copy or export it again");
+}
+
 class Scanner {
 public:
-  Scanner(std::string_view text, const std::string& file, const std::stop_token& stop)
-      : text_(text), file_(file), stop_(stop) {}
+  Scanner(std::string_view text, const std::string& file, TextEnd textEnd, const std::stop_token& stop)
+      : text_(text), file_(file), textEnd_(textEnd), stop_(stop) {}
+
+  /// A text has ended where none can: quotes in texts are not doubled.
+  bool hasStrayQuotes() const { return strayQuotes_; }
 
   Result<StepText> scan() {
     while (at_ < text_.size()) {
@@ -28,7 +69,7 @@ public:
       if (auto read = statement(); !read) return tl::unexpected(std::move(read.error()));
       if (atEnd_) return finish();
     }
-    return broken("the STEP file ends before END-ISO-10303-21", line_);
+    return cutShort(file_, line_);
   }
 
 private:
@@ -69,15 +110,13 @@ private:
   }
 
   Result<void> text() {
-    const std::uint64_t begin = line_;
-    for (++at_; at_ < text_.size(); ++at_) {
-      if (text_[at_] == '\n') ++line_;
-      if (text_[at_] == '\'') {
-        ++at_;
-        return {};
-      }
-    }
-    return broken("a text of the STEP file has no end", begin);
+    const std::size_t end = endOfText(text_, at_, textEnd_);
+    if (end == std::string_view::npos) return broken("a text of the STEP file has no end", line_);
+    line_ += static_cast<std::uint64_t>(std::count(text_.begin() + static_cast<std::ptrdiff_t>(at_),
+                                                   text_.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+    at_ = end;
+    strayQuotes_ = strayQuotes_ || !mayEndText(text_, at_);
+    return {};
   }
 
   /// Up to and with the semicolon.
@@ -93,6 +132,9 @@ private:
       if (id != 0 && at_ < text_.size() && text_[at_] == '=') {
         ++at_;
         if (auto skipped = skip(); !skipped) return skipped;
+        if (!inData_) {
+          return broken(fmt::format("#{} stands outside of the section DATA", id), begin);
+        }
         const auto [place, isNew] = result_.entities.try_emplace(id, StepEntity{begin, word()});
         if (!isNew) {
           return broken(fmt::format("the STEP file has two entities #{}, the first in line {}", id, place->second.line),
@@ -101,11 +143,31 @@ private:
       } else {
         return broken("an entity of the STEP file has no number", begin);
       }
-    } else if (text_.substr(at_).starts_with("END-ISO-10303-21")) {
+    } else if (beginsWith(text_.substr(at_), kEnd)) {
       atEnd_ = true;
       return {};
+    } else if (auto known = section(begin); !known) {
+      return known;
     }
     return arguments(id, begin);
+  }
+
+  /// Follows the keywords that begin the sections.
+  Result<void> section(std::uint64_t begin) {
+    const std::size_t at = at_;
+    const std::string keyword = upperCase(word());
+    at_ = keyword == "DATA" ? at_ : at;
+    if (keyword == "HEADER") hasHeader_ = true;
+    if (keyword == "ENDSEC") inData_ = false;
+    if (keyword != "DATA") return {};
+    if (!hasHeader_) return broken("the STEP file has no section HEADER before its section DATA", begin);
+    inData_ = true;
+    if (auto skipped = skip(); !skipped) return skipped;
+    if (at_ == text_.size() || text_[at_] != '(') return {};
+    return fail(
+        {file_, begin, 0},
+        "the section DATA has parameters, as the second edition of ISO 10303-21 permits: such files cannot be read",
+        "export the part as AP203 or AP214, or write DATA; there");
   }
 
   Result<void> arguments(std::uint64_t id, std::uint64_t begin) {
@@ -152,7 +214,11 @@ private:
 
   std::string_view text_;
   const std::string& file_;
+  TextEnd textEnd_;
   const std::stop_token& stop_;
+  bool strayQuotes_ = false;
+  bool hasHeader_ = false;
+  bool inData_ = false;
   std::size_t at_ = 0;
   std::uint64_t line_ = 1;
   bool atEnd_ = false;
@@ -224,11 +290,36 @@ std::optional<EndlessNumber> endlessNumber(std::string_view bytes) {
   return std::nullopt;
 }
 
+namespace {
+
+/// The places behind the texts of a STEP file, by the places of their first quotes.
+std::optional<std::vector<std::pair<std::size_t, std::size_t>>> textsOf(std::string_view bytes, TextEnd by) {
+  std::vector<std::pair<std::size_t, std::size_t>> texts;
+  for (std::size_t at = 0; (at = bytes.find_first_of("'/", at)) != std::string_view::npos;) {
+    if (bytes[at] == '/') {
+      at = bytes.substr(at, 2) == "/*" ? std::min(bytes.find("*/", at + 2), bytes.size()) : at + 1;
+      continue;
+    }
+    const std::size_t end = endOfText(bytes, at, by);
+    if (end == std::string_view::npos || (by == TextEnd::Standard && !mayEndText(bytes, end))) return std::nullopt;
+    texts.emplace_back(at, end);
+    at = end;
+  }
+  return texts;
+}
+
+}  // namespace
+
 std::string withCapitalExponents(std::string bytes) {
-  bool inText = false;
+  auto texts = textsOf(bytes, TextEnd::Standard);
+  if (!texts) texts = textsOf(bytes, TextEnd::BeforeSign);
+  if (!texts) texts.emplace();
+  auto text = texts->begin();
   for (std::size_t i = 1; i + 1 < bytes.size(); ++i) {
-    if (bytes[i] == '\'') inText = !inText;
-    if (bytes[i] != 'e' || inText || (!isDigit(bytes[i - 1]) && bytes[i - 1] != '.')) continue;
+    for (; text != texts->end() && i >= text->first; ++text)
+      i = std::max(i, text->second);
+    if (i + 1 >= bytes.size()) break;
+    if (bytes[i] != 'e' || (!isDigit(bytes[i - 1]) && bytes[i - 1] != '.')) continue;
     const char next = bytes[i + 1];
     if (isDigit(next) || next == '-' || next == '+') bytes[i] = 'E';
   }
@@ -249,15 +340,23 @@ Result<StepText> scanStep(std::string_view bytes, const std::string& file, const
     skipBlanks();
   }
   if (content.empty()) return fail({file, 0, 0}, "the STEP file is empty", "export the part again");
-  if (!content.starts_with("ISO-10303-21")) {
+  if (!beginsWith(content, "ISO-10303-21")) {
     return fail({file, 1, 1}, "not a STEP file: it does not begin with ISO-10303-21",
                 "export the part as STEP (AP203, AP214 or AP242), or name an IGES or STL file with its own extension");
   }
-  if (bytes.find("END-ISO-10303-21") == std::string_view::npos) {
-    return fail({file, 0, 0}, "the STEP file ends before END-ISO-10303-21",
-                "the file was cut short; copy or export it again");
+  const auto sameLetter = [](char one, char other) { return upper(one) == upper(other); };
+  const auto theEnd = std::search(bytes.begin(), bytes.end(), kEnd.begin(), kEnd.end(), sameLetter);
+  if (theEnd == bytes.end()) {
+    return cutShort(file, 1 + static_cast<std::uint64_t>(std::count(bytes.begin(), bytes.end(), '\n')));
   }
-  return Scanner(bytes, file, stop).scan();
+  Scanner byStandard(bytes, file, TextEnd::Standard, stop);
+  Result<StepText> scanned = byStandard.scan();
+  if (scanned && !byStandard.hasStrayQuotes()) return scanned;
+  Result<StepText> tolerant = Scanner(bytes, file, TextEnd::BeforeSign, stop).scan();
+  if (tolerant) return tolerant;
+  // A quote that is not doubled leads the first reader to places far behind it.
+  return scanned || scanned.error().place.line <= tolerant.error().place.line ? std::move(scanned)
+                                                                              : std::move(tolerant);
 }
 
 }  // namespace probewright::simulation

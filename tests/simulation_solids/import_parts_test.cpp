@@ -143,6 +143,45 @@ TEST(StepText, KnowsWhereEachEntityStands) {
   EXPECT_EQ(text->missing, 7U);
 }
 
+/// As OpenCASCADE does: names with an inch or a foot sign are common.
+TEST(StepText, TakesAQuoteThatIsNotDoubledAsALetterOfItsText) {
+  for (const char* name :
+       {"it's", "5' x 6'", "5'", "5''", "''", "bob's (a; b) #77 part", "a\n'b", "'", "x' /* c */ y", "/*'"}) {
+    const std::string bytes =
+        step("#1=PRODUCT('" + std::string(name) + "' , 'b',(#20));\n#20=DIRECTION('c',(0.,1.));\n");
+    const auto text = scanStep(bytes, "p.step");
+    ASSERT_TRUE(text) << name << ": " << format(text.error());
+    ASSERT_EQ(text->entities.size(), 2U) << name;
+    EXPECT_EQ(text->entities.at(20).type, "DIRECTION");
+    ASSERT_EQ(text->references.size(), 1U) << name;
+    EXPECT_EQ(text->missing, 0U) << name;
+  }
+}
+
+TEST(StepText, ItsKeywordsMayBeWrittenSmall) {
+  const std::string bytes =
+      "iso-10303-21;\nheader;\nendsec;\ndata;\n#1=DIRECTION('',(0.,1.));\nendsec;\nend-iso-10303-21;\n";
+  const auto text = scanStep(bytes, "p.step");
+  ASSERT_TRUE(text) << format(text.error());
+  EXPECT_EQ(text->entities.size(), 1U);
+}
+
+TEST(StepText, NamesTheSectionThatIsMissing) {
+  const auto message = [](const std::string& bytes) {
+    const auto text = scanStep(bytes, "p.step");
+    return text ? std::string("fine") : format(text.error());
+  };
+  const std::string entity = "#1=A();\n", end = "ENDSEC;\nEND-ISO-10303-21;\n";
+  EXPECT_THAT(message("ISO-10303-21;\nDATA;\n" + entity + end),
+              HasSubstr("p.step:2: error: the STEP file has no section HEADER"));
+  EXPECT_THAT(message("ISO-10303-21;\nHEADER;\nENDSEC;\n" + entity + end),
+              HasSubstr("p.step:4: error: #1 stands outside of the section DATA"));
+  EXPECT_THAT(message("ISO-10303-21;\nHEADER;\nENDSEC;\nDATA('A',('B'));\n" + entity + end),
+              HasSubstr("p.step:4: error: the section DATA has parameters"));
+  EXPECT_THAT(message("ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\n" + entity + "ENDSEC;\n"),
+              HasSubstr("p.step:7: error: the STEP file ends before END-ISO-10303-21"));
+}
+
 TEST(StepText, FindsAnEntityThatRefersToItself) {
   const auto circular = [](const std::string& data) {
     const std::string bytes = step(data);
