@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <BRepBndLib.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <IGESControl_Writer.hxx>
 #include <Interface_Static.hxx>
@@ -10,6 +13,9 @@
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
 #include <Standard_Failure.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Vertex.hxx>
 
 #include "oracle.hpp"
 #include "simulation/cad_solid.hpp"
@@ -227,6 +233,38 @@ TEST(SlotsAndPockets, BoxesAsRoundAsTheyAreWideHaveRoundEnds) {
     const auto contact = (*part)->firstContact(centre + 45 * out, centre, 2);
     ASSERT_TRUE(contact) << degrees;
     EXPECT_NEAR(contact->fraction * 45, 45 - 27, 1e-9) << degrees;
+  }
+}
+
+/// A vertex may lie off the ends of its edges, within its tolerance: the ends are what is touched. OpenCASCADE's
+/// distances know the vertex only, and the oracle must not take that for an error of the contact, nor miss an error.
+TEST(LooseVertices, BallsMeetTheEndsOfTheEdges) {
+  for (const double off : {-0.002, 0.002}) {
+    const TopoDS_Shape box = BRepPrimAPI_MakeBox(10, 10, 10).Shape();
+    const gp_Pnt corner(10, 10, 10);
+    for (TopExp_Explorer found(box, TopAbs_VERTEX); found.More(); found.Next()) {
+      const TopoDS_Vertex& vertex = TopoDS::Vertex(found.Current());
+      if (BRep_Tool::Pnt(vertex).Distance(corner) < 0.1)
+        BRep_Builder().UpdateVertex(vertex, corner.Translated(gp_Vec(off, off, off)), 0.004);
+    }
+    const auto solid = cadSolid(box);
+    ASSERT_TRUE(solid) << format(solid.error());
+    const Oracle oracle(box);
+    const Vector3 end(10, 10, 10);
+    for (const Vector3& out : {Vector3(1, 1, 1), Vector3(1, 2, 1.5), Vector3(2, 0.5, 1)}) {
+      const Vector3 from = end + 20 * out.normalized(), to = end - out;
+      auto contact = (*solid)->firstContact(from, to, 3);
+      ASSERT_TRUE(contact) << off;
+      EXPECT_NEAR(contact->fraction * (to - from).norm(), 17, 1e-9) << off;
+      EXPECT_EQ(oracle.objectionTo(contact, from, to, 3, true), "") << off;
+      // Wrong by more than the vertex, to either side.
+      for (const double wrong : {-0.006, 0.006}) {
+        BallContact moved = *contact;
+        moved.fraction += wrong / (to - from).norm();
+        moved.ballCentre = from + moved.fraction * (to - from);
+        EXPECT_NE(oracle.objectionTo(moved, from, to, 3, true), "") << off << " " << wrong;
+      }
+    }
   }
 }
 

@@ -15,9 +15,11 @@
 #include <IMeshTools_Parameters.hxx>
 #include <Message_ProgressIndicator.hxx>
 #include <Poly_Triangulation.hxx>
+#include <Precision.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Face.hxx>
+#include <TopoDS_Vertex.hxx>
 #include <cstdlib>
 #include <ctime>
 #include <map>
@@ -27,6 +29,7 @@ namespace probewright::simulation::testing {
 struct Oracle::Face {
   TopoDS_Face face;
   Bnd_Box box;
+  std::vector<Vector3> ends;  ///< of the curves of its edges
 };
 
 namespace {
@@ -53,6 +56,28 @@ private:
   TriangleMesh& mesh_;
   std::map<std::array<std::int64_t, 3>, std::uint32_t> corners_;
 };
+
+/// Where the curves of a face's edges end: their vertices may lie elsewhere, within their tolerances.
+std::vector<Vector3> endsOfEdges(const TopoDS_Face& face) {
+  std::vector<Vector3> ends;
+  for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next()) {
+    double first = 0, last = 0;
+    const Handle(Geom_Curve) curve = BRep_Tool::Curve(TopoDS::Edge(edges.Current()), first, last);
+    if (curve.IsNull() || Precision::IsInfinite(first) || Precision::IsInfinite(last)) continue;
+    ends.push_back(vector(curve->Value(first)));
+    ends.push_back(vector(curve->Value(last)));
+  }
+  return ends;
+}
+
+/// How far from a point the nearest of some places is that lie within a distance of a middle; 0 without any.
+double nearestWithin(const std::vector<Vector3>& places, const Vector3& middle, double distance, const Vector3& point) {
+  double nearest = 1e300;
+  for (const Vector3& place : places) {
+    if ((place - middle).norm() <= distance) nearest = std::min(nearest, (place - point).norm());
+  }
+  return nearest < 1e300 ? nearest : 0;
+}
 
 bool isClosed(const TriangleMesh& mesh) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
@@ -103,7 +128,7 @@ Oracle::Oracle(const TopoDS_Shape& shape, double doubt) : shape_(BRepBuilderAPI_
   auto faces = std::make_shared<std::vector<Face>>();
   double deviation = 0;
   for (TopExp_Explorer found(shape_, TopAbs_FACE); found.More(); found.Next()) {
-    Face face{TopoDS::Face(found.Current()), {}};
+    Face face{TopoDS::Face(found.Current()), {}, endsOfEdges(TopoDS::Face(found.Current()))};
     BRepBndLib::Add(face.face, face.box);
     faces->push_back(face);
     TopLoc_Location location;
@@ -153,23 +178,36 @@ Oracle::Oracle(const TopoDS_Shape& shape, double doubt) : shape_(BRepBuilderAPI_
   mesh_ = std::make_unique<MeshSolid>(std::move(mesh));
 }
 
-double Oracle::exactDistance(const Vector3& point, double about) const {
+Oracle::Distance Oracle::exactDistance(const Vector3& point, double about) const {
   const gp_Pnt p(point.x(), point.y(), point.z());
   const TopoDS_Shape vertex = BRepBuilderAPI_MakeVertex(p).Shape();
   Bnd_Box here;
   here.Set(p);
   here.Enlarge(about + 1e-3);
-  double nearest = 1e300;
+  Distance nearest;
+  double ends = 1e300;
   for (const Face& face : *faces_) {
     if (here.IsOut(face.box)) continue;
+    for (const Vector3& end : face.ends)
+      ends = std::min(ends, (end - point).norm());
     const BRepExtrema_DistShapeShape distance(vertex, face.face);
-    if (distance.IsDone()) nearest = std::min(nearest, distance.Value());
+    if (!distance.IsDone()) continue;
+    nearest.least = std::min(nearest.least, distance.Value());
+    double most = distance.Value();
+    if (distance.SupportTypeShape2(1) == BRepExtrema_IsVertex) {
+      const TopoDS_Vertex met = TopoDS::Vertex(distance.SupportOnShape2(1));
+      most = std::max(most,
+                      nearestWithin(face.ends, vector(BRep_Tool::Pnt(met)), 1e-7 + BRep_Tool::Tolerance(met), point));
+    }
+    nearest.most = std::min(nearest.most, most);
   }
-  if (nearest > about - precision_) return nearest;
-  // On some wrapped surfaces OpenCASCADE sees places that do not belong to the face; asked for all at once, it does
-  // not.
-  const BRepExtrema_DistShapeShape whole(vertex, shape_);
-  return whole.IsDone() ? std::max(nearest, whole.Value()) : nearest;
+  if (nearest.least <= about - precision_) {
+    // On some wrapped surfaces OpenCASCADE sees places that do not belong to the face; asked for all at once, it does
+    // not.
+    const BRepExtrema_DistShapeShape whole(vertex, shape_);
+    if (whole.IsDone()) nearest = {std::max(nearest.least, whole.Value()), std::max(nearest.most, whole.Value())};
+  }
+  return {std::min(nearest.least, ends), std::min(nearest.most, ends)};
 }
 
 std::string Oracle::objectionTo(const std::optional<BallContact>& contact, const Vector3& from, const Vector3& to,
@@ -180,12 +218,16 @@ std::string Oracle::objectionTo(const std::optional<BallContact>& contact, const
   const auto late = radius > tolerance_ ? mesh_->firstContact(from, to, radius - tolerance_) : std::nullopt;
   // A tessellation can be worse than it looks; then the other means decides, too.
   const auto isThere = [&](const BallContact& met) {
-    return (met.fraction == 0 && !skin_) || exactDistance(met.ballCentre, radius) < radius - precision_;
+    return (met.fraction == 0 && !skin_) || exactDistance(met.ballCentre, radius).most < radius - precision_;
   };
-  const auto isTouched = [&] { return std::abs(exactDistance(contact->ballCentre, radius) - radius) <= precision_; };
+  const auto isTouched = [&] {
+    const auto [least, most] = exactDistance(contact->ballCentre, radius);
+    return least <= radius + precision_ && most >= radius - precision_;
+  };
   if (!contact) {
     for (const double share : {0.13, 0.31, 0.52, 0.77, 1.0}) {
-      if (exactly && exactDistance(from + share * (to - from), radius) < radius - precision_) return "passes the shape";
+      if (exactly && exactDistance(from + share * (to - from), radius).most < radius - precision_)
+        return "passes the shape";
     }
     return late && isThere(*late) ? fmt::format("passes what is in the way after {:.4f} mm", late->fraction * length)
                                   : "";
@@ -202,7 +244,7 @@ std::string Oracle::objectionTo(const std::optional<BallContact>& contact, const
   if (exactly && tolerance_ < kUsable * (bounds_.maximum - bounds_.minimum).norm()) {
     // Some places on the way up to there.
     for (const double share : {0.31, 0.77, 0.97}) {
-      const double distance = exactDistance(from + share * contact->fraction * (to - from), radius);
+      const double distance = exactDistance(from + share * contact->fraction * (to - from), radius).most;
       if (distance < radius - precision_)
         return fmt::format("stops after {:.4f} mm, past a part of the shape", travelled);
     }
@@ -210,10 +252,11 @@ std::string Oracle::objectionTo(const std::optional<BallContact>& contact, const
   if (std::abs((contact->touchPoint - contact->ballCentre).norm() - radius) > precision_)
     return fmt::format("touches {:.7f} mm away from its centre", (contact->touchPoint - contact->ballCentre).norm());
   if (!exactly) return "";
-  const double distance = exactDistance(contact->ballCentre, radius);
-  if (std::abs(distance - radius) <= precision_) return "";
+  const auto [least, most] = exactDistance(contact->ballCentre, radius);
+  if (least <= radius + precision_ && most >= radius - precision_) return "";
+  const double distance = least > radius ? least : most;
   // OpenCASCADE misses places of some wrapped surfaces: then the point that was touched must be on the surface.
-  if (distance > radius && exactDistance(contact->touchPoint, 0) < precision_) return "";
+  if (distance > radius && exactDistance(contact->touchPoint, 0).least < precision_) return "";
   return fmt::format("stops {:.7f} mm from the shape, {:.7f} mm too far", distance, distance - radius);
 }
 

@@ -32,7 +32,12 @@ public:
   double tolerance() const { return tolerance_; }
 
 private:
-  double exactDistance(const Vector3& point, double about) const;
+  /// Between two values where a vertex is nearest: OpenCASCADE takes it for the ends of its edges, but their curves may
+  /// end elsewhere within its tolerance, and these ends belong to the shape.
+  struct Distance {
+    double least = 1e300, most = 1e300;
+  };
+  Distance exactDistance(const Vector3& point, double about) const;
 
   TopoDS_Shape shape_;
   std::unique_ptr<MeshSolid> mesh_;
