@@ -18,7 +18,8 @@ export async function scrolled(page, selector, steps = 120) {
   }, selector, steps);
   const { traceEvents } = JSON.parse(Buffer.from(await page.tracing.stop()).toString());
   const threads = new Set(traceEvents.filter(({ name, args }) => name === "thread_name" && args.name === "CrRendererMain").map(({ pid, tid }) => `${pid} ${tid}`));
-  const tasks = traceEvents.filter(({ name, ph, pid, tid }) => name === "RunTask" && ph === "X" && threads.has(`${pid} ${tid}`));
+  // A task that has begun before the trace, or ends after it, has no time of its own.
+  const tasks = traceEvents.filter(({ name, ph, pid, tid, tdur }) => name === "RunTask" && ph === "X" && tdur !== undefined && threads.has(`${pid} ${tid}`));
   if (tasks.length < frames.length) throw new Error("the trace does not tell what the page did");
   const own = tasks.reduce((sum, { tdur }) => sum + tdur, 0) / 1000;
   frames.sort((a, b) => a - b);
