@@ -35,6 +35,14 @@ if(PROBEWRIGHT_COVERAGE)
   target_link_options(probewright_options INTERFACE --coverage)
 endif()
 
+# Only some folders compute for long: contact, fits, frames, pictures. The others read, decide and write; the compiler's first level is
+# enough for them and takes three quarters of the time.
+set(PROBEWRIGHT_READING_OPTIONS $<$<CONFIG:Release>:-O1>)
+
+# What takes time in a test is the house; optimizing the tests themselves costs a third of their build. Without any they are
+# larger, and take as long to compile.
+set(PROBEWRIGHT_TEST_OPTIONS $<$<CONFIG:Release>:-Og>)
+
 # Headers that nearly every file needs are compiled once; reading them anew takes more than half of a whole build. Each
 # file still includes what it uses: a build with PROBEWRIGHT_PRECOMPILE=OFF shows what was forgotten. Of the kind "cycles" is what a
 # cycle is written with, for folders in which nearly every file needs it; elsewhere that costs more than it saves.
@@ -115,10 +123,6 @@ function(probewright_merge variable name count)
   set(${variable} ${groups} ${single} PARENT_SCOPE)
 endfunction()
 
-# Only some folders compute for long: contact, fits, frames, pictures. The others read, decide and write; the compiler's first level is
-# enough for them and takes three quarters of the time.
-set(PROBEWRIGHT_READING_OPTIONS $<$<CONFIG:Release>:-O1>)
-
 # probewright_library(NAME [COMPUTES] [LINK targets...] [PRECOMPILED kind]): a static library of all .cpp files below the calling
 # folder. COMPUTES: of those that compute for long.
 function(probewright_library name)
@@ -142,10 +146,6 @@ function(probewright_library name)
     target_link_libraries(probewright_${name} INTERFACE probewright_options ${ARG_LINK})
   endif()
 endfunction()
-
-# What takes time in a test is the house; optimizing the tests themselves costs a third of their build. Without any they are
-# larger, and take as long to compile.
-set(PROBEWRIGHT_TEST_OPTIONS $<$<CONFIG:Release>:-Og>)
 
 # probewright_test(NAME [EACH] [LINK targets...] [PROPERTIES names and values...]): one test program of all *_test.cpp files in
 # the calling folder; the properties are those of its entries for ctest. An entry is a suite, NAME.SUITE: a process takes longer to

@@ -32,9 +32,9 @@ std::uint64_t circularEntity(const StepText& text);
 
 /// Reads the entities of a STEP file. Refused: a file that is not a STEP file or is cut short, brackets that are nested
 /// deeper than any part needs or never closed, texts without an end, two entities of one number, no section HEADER or
-/// DATA, or one with parameters (the second edition of the standard). What stands between
-/// the brackets is not looked at. A text ends at a quote before a comma, a bracket or a semicolon; any other one, 5'x6',
-/// is a letter of it, as OpenCASCADE takes it. Keywords may be small. `bytes` must outlive the result. A stop ends it with a mistake.
+/// DATA, or one with parameters (the second edition of the standard). What stands between the brackets is not looked
+/// at. A text ends at a quote before a comma, a bracket or a semicolon; any other one, as in 5'x6', is a letter of it,
+/// as OpenCASCADE takes it. Keywords may be small. `bytes` must outlive the result. A stop ends it with a mistake.
 Result<StepText> scanStep(std::string_view bytes, const std::string& file, const std::stop_token& stop = {});
 
 /// A number that is larger than all that can be computed with, 1.E400, and its line.
