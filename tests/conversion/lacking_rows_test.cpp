@@ -16,8 +16,8 @@ std::string hole(const std::string& row) {
   std::string block = probe(
       412, {{321, 0}, {322, 0}, {262, 40}, {325, 0}, {247, 90}, {261, -8}, {320, 1}, {260, 30}, {301, 0}, {305, 77},
             {331, 0}, {332, 0}, {303, 1},  {381, 0}, {382, 0},  {383, 0},  {384, 0}, {333, 0},  {423, 4}, {365, 1}});
-  const std::string placeholder = "Q305=+77.000000";
-  return block.replace(block.find(placeholder), placeholder.size(), "Q305=" + row);
+  const std::string rowOfBlock = "Q305=+77.000000";
+  return block.replace(block.find(rowOfBlock), rowOfBlock.size(), "Q305=" + row);
 }
 
 std::string turned(int row) { return probe(404, {{307, 12}, {305, row}}); }
