@@ -32,9 +32,8 @@
 namespace probewright::simulation {
 namespace {
 
-constexpr double kFarthest = 1e9;             // mm
-constexpr double kDeflectionOfSize = 2.5e-6;  // of a large shape
-constexpr std::size_t kWorthAThread = 20;     // faces
+constexpr double kFarthest = 1e9;          // mm
+constexpr std::size_t kWorthAThread = 20;  // faces
 
 CadEdge cadEdge(const TopoDS_Edge& edge) {
   CadEdge exact;
@@ -231,7 +230,7 @@ CadModel exactModel(std::string_view bytes, double deflection, const std::stop_t
 }
 
 void addElements(CadModel& model) {
-  model.deflection = std::max(model.deflection, kDeflectionOfSize * sizeOf(model.shape));
+  model.deflection = suitableDeflection(model.deflection, sizeOf(model.shape));
   const Faces faces = facesOf(model.shape);
   std::vector<std::vector<CadElement>> ofFaces(faces.faces.size());
   inParallel(ofFaces.size(), kWorthAThread, [&](std::size_t i) {

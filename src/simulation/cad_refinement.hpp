@@ -72,9 +72,11 @@ void visitFinely(const CadModel& model, const CadElement& element, const IsNear&
 /// so little that a search for the contact of a ball with the exact surface may begin there. `isNear(part)` rules out
 /// parts; the element itself is near.
 template <class IsNear, class Visit>
-void visitForBall(const CadModel& model, const CadElement& element, const IsNear& isNear, const Visit& visit) {
+void visitForBall(const CadModel& model, const CadElement& element, double radius, const IsNear& isNear,
+                  const Visit& visit) {
   constexpr double kEnough = 30;  // deflections
-  const double limit = kEnough * model.deflection;
+  constexpr double kShare = 0.1;  // of the radius
+  const double limit = std::min(kEnough * model.deflection, kShare * radius);
   if (element.growth <= kDeviationSafety * limit) return visit(element);
   detail::visitQuarters(element, *model.faces[element.owner].surface, limit, growthBesideBorders(model.deflection), 0,
                         isNear, visit);

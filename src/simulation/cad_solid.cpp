@@ -55,7 +55,7 @@ void meet(const CadModel& model, const CadElement& element, const Way& way, doub
       if (!memory.knows(element)) meetAnalyticFace(face, way, radius, best);
     } else {
       visitForBall(
-          model, element,
+          model, element, radius,
           [&](const CadElement& part) {
             coarse = {};
             coarse.when = best.when;

@@ -37,6 +37,14 @@ constexpr double kInterior = 30;
 constexpr double kAlongEdges = 8;
 /// Of a large shape the triangles may be as much coarser: a share of its size.
 constexpr double kAlongEdgesOfSize = 2e-5, kInteriorOfSize = 1e-4;
+/// How far triangles may leave the faces, as a share of the shape's size: at least, as a large shape's need not be as
+/// fine as a small one's, and at most.
+constexpr double kFinestOfSize = 2.5e-6, kCoarsestOfSize = 1e-3;
+
+double coarsest(double size) {
+  constexpr double kLeast = 1e-5;  // mm
+  return size > 0 ? std::max(kLeast, kCoarsestOfSize * size) : std::numeric_limits<double>::infinity();
+}
 
 /// The faces by what they share with their instances elsewhere in the shape, counted from 1.
 using FaceNumbers = std::map<const TopoDS_TShape*, int>;
@@ -181,6 +189,10 @@ double sizeOf(const TopoDS_Shape& shape) {
   return box.IsVoid() || box.IsOpen() ? 0 : box.CornerMin().Distance(box.CornerMax());
 }
 
+double suitableDeflection(double asked, double size) {
+  return std::max(std::min(asked, coarsest(size)), kFinestOfSize * size);
+}
+
 std::size_t faceCount(const TopoDS_Shape& shape) { return numbered(shape).size(); }
 
 bool isMeshed(const TopoDS_Shape& shape, double deflection) {
@@ -202,8 +214,9 @@ std::vector<GridFace> meshFaces(const TopoDS_Shape& shape, double deflection, co
   mesher.SetShape(shape);
   IMeshTools_Parameters& parameters = mesher.ChangeParameters();
   const double size = sizeOf(shape);
-  parameters.Deflection = std::max(kAlongEdges * deflection, kAlongEdgesOfSize * size);
-  parameters.DeflectionInterior = std::max(kInterior * deflection, kInteriorOfSize * size);
+  const double fine = std::min(deflection, coarsest(size));
+  parameters.Deflection = std::max(kAlongEdges * fine, kAlongEdgesOfSize * size);
+  parameters.DeflectionInterior = std::max(kInterior * fine, kInteriorOfSize * size);
   parameters.Angle = kAngle;
   parameters.InParallel = options.parallel;
   mesher.Perform(context);
@@ -222,7 +235,7 @@ std::vector<GridFace> meshFaces(const TopoDS_Shape& shape, double deflection, co
     GridFace found{number, kindOf(face), 0, 0};
     try {
       const CadFace exact = cadFace(TopoDS::Face(face.Located(TopLoc_Location())));
-      const FaceGrid grid(exact, deflection);
+      const FaceGrid grid(exact, fine);
       const Handle(Poly_Triangulation) mesh = triangulation(exact, grid);
       if (!mesh.IsNull() && !enclosesNothing(exact.domain)) {
         mesh->Deflection(deflection);

@@ -31,6 +31,10 @@ struct GridFace {
 /// mm, roughly: the diagonal of a box about a shape, and 0 where it has none.
 double sizeOf(const TopoDS_Shape& shape);
 
+/// mm: how far triangles may leave the faces of a shape of a size, 0 if that is unknown. What is asked for, unless the
+/// shape is so large that this would be needlessly fine, or so small that it would be coarse.
+double suitableDeflection(double asked, double size);
+
 /// The faces of a shape that are different from each other, in the order in which an explorer meets them.
 std::size_t faceCount(const TopoDS_Shape& shape);
 

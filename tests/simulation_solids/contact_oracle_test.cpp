@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
@@ -16,6 +17,9 @@
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Vertex.hxx>
+#include <algorithm>
+#include <gp_Trsf.hxx>
+#include <iterator>
 
 #include "oracle.hpp"
 #include "simulation/cad_solid.hpp"
@@ -58,6 +62,21 @@ TEST(ContactOracle, BodiesAreMetWhateverOtherSystemsMakeOfThem) {
           judge(disguised(all[k], how, random), random, waysInCampaign(40));
       }
     }
+  }
+}
+
+/// A part whose file has the wrong unit, metres read as millimetres: triangles that are fine for a usual part are coarse
+/// for this one and its balls.
+TEST(ContactOracle, TinyPartsAreMetWhereTheyAre) {
+  std::mt19937_64 random(seed(106));
+  gp_Trsf smaller;
+  smaller.SetScaleFactor(0.01);
+  for (int i = 0; i < campaignFactor(); ++i) {
+    std::vector<NamedShape> all = singleFaces(random);
+    std::ranges::move(bodies(random), std::back_inserter(all));
+    for (const NamedShape& named : all)
+      judge({"tiny " + named.name, BRepBuilderAPI_Transform(named.shape, smaller, true).Shape()}, random,
+            waysInCampaign(40));
   }
 }
 
