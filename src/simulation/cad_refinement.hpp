@@ -74,6 +74,7 @@ void visitFinely(const CadModel& model, const CadElement& element, const IsNear&
 template <class IsNear, class Visit>
 void visitForBall(const CadModel& model, const CadElement& element, double radius, const IsNear& isNear,
                   const Visit& visit) {
+  // A triangle that is coarse for the ball may hold several touches, and the search finds one of them.
   constexpr double kEnough = 30;  // deflections
   constexpr double kShare = 0.1;  // of the radius
   const double limit = std::min(kEnough * model.deflection, kShare * radius);

@@ -65,8 +65,8 @@ TEST(ContactOracle, BodiesAreMetWhateverOtherSystemsMakeOfThem) {
   }
 }
 
-/// A part whose file has the wrong unit, metres read as millimetres: triangles that are fine for a usual part are coarse
-/// for this one and its balls.
+/// Parts of a few tenths of a millimetre, as files in a wrong unit give: triangles that are fine for a usual part are
+/// coarse for these and their balls.
 TEST(ContactOracle, TinyPartsAreMetWhereTheyAre) {
   std::mt19937_64 random(seed(106));
   gp_Trsf smaller;
