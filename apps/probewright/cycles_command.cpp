@@ -81,7 +81,17 @@ void say(fmt::format_string<Values...> layout, Values&&... values) {
 /// The NC software of the iTNC 530 that brought a parameter.
 std::string softwareText(const Parameter& parameter) { return fmt::format("340 49x-{:02}", parameter.iTNC530Software); }
 
-void show(const CycleDefinition& cycle, DialogLanguage language) {
+/// What controls take that take less than the others: "; iTNC530: 3 to 4".
+std::string narrowerText(const Parameter& parameter, DialogLanguage language) {
+  std::string text;
+  for (const ControlKind kind : control::allControlKinds)
+    if (parameter.narrower.controls.contains(kind))
+      text += fmt::format("; {}: {}", control::name(kind), rangeText(parameter.on(kind), language));
+  return text;
+}
+
+/// With `control`, what that one has, and in its ranges.
+void show(const CycleDefinition& cycle, DialogLanguage language, std::optional<ControlKind> control) {
   std::size_t width = 8;
   for (const Parameter& parameter : cycle.parameters)
     width = std::max(width, parameter.name.size());
@@ -91,21 +101,26 @@ void show(const CycleDefinition& cycle, DialogLanguage language) {
   const auto says = [&](std::string_view english) { return words::ofCatalogue(language, english); };
   say("{} | {}\n\n{}\n\n{}\n", says(cycles::nameOf(cycle.family)), controlsText(cycle.controls), says(cycle.summary),
       says("Parameters"));
-  for (const Parameter& parameter : cycle.parameters) {
+  for (const Parameter& each : cycle.parameters) {
+    if (control && !each.controls.contains(*control)) continue;
+    const Parameter parameter = control ? each.on(*control) : each;
     say("  {:<{}} {}\n", parameter.name, width, says(parameter.meaning));
     std::string line = rangeText(parameter, language);
+    if (!control) line += narrowerText(parameter, language);
     if (parameter.standard) {
       line += "; " + words::ofCatalogue(language, "default {0}", {formatShortest(*parameter.standard)});
     }
     if (parameter.predefinable) line += "; PREDEF";
     control::ControlSet here = parameter.controls;
     here.bits = static_cast<std::uint8_t>(here.bits & cycle.controls.bits);
-    if (here.bits != cycle.controls.bits) line += "; " + words::ofCatalogue(language, "{0} only", {controlsText(here)});
-    if (parameter.iTNC530Software > 0)
+    if (!control && here.bits != cycle.controls.bits)
+      line += "; " + words::ofCatalogue(language, "{0} only", {controlsText(here)});
+    if (parameter.iTNC530Software > 0 && control != ControlKind::TNC640)
       line += "; " + words::ofCatalogue(language, "iTNC530 from {0} on", {softwareText(parameter)});
     say("  {:<{}} {}\n", "", width, line);
     for (const cycles::Choice& choice : parameter.choices) {
-      say("  {:<{}}   {:>3}  {}\n", "", width, choice.value, says(choice.meaning));
+      if (!control || choice.controls.contains(*control))
+        say("  {:<{}}   {:>3}  {}\n", "", width, choice.value, says(choice.meaning));
     }
     for (const cycles::CodeDigit& digit : isCode(parameter) ? parameter.digits : std::span<const cycles::CodeDigit>()) {
       const std::string last = says(cycles::placeName(digit.place));
@@ -135,30 +150,35 @@ nlohmann::ordered_json namesOf(control::ControlSet controls) {
   return names;
 }
 
-nlohmann::ordered_json toJson(std::span<const cycles::Choice> choices) {
+/// Of a cycle that these controls have. A choice that only some of them know names these.
+nlohmann::ordered_json toJson(std::span<const cycles::Choice> choices, control::ControlSet controls) {
   auto list = nlohmann::ordered_json::array();
-  for (const cycles::Choice& choice : choices)
+  for (const cycles::Choice& choice : choices) {
+    const control::ControlSet here = {static_cast<std::uint8_t>(choice.controls.bits & controls.bits)};
+    if (here.bits == 0) continue;
     list.push_back({{"value", choice.value}, {"meaning", choice.meaning}});
+    if (here.bits != controls.bits) list.back()["controls"] = namesOf(here);
+  }
   return list;
 }
 
 /// The decimal digits of a coded number: the place of the last one from the right, from 1, and how many there are.
-nlohmann::ordered_json toJson(std::span<const cycles::CodeDigit> digits) {
+nlohmann::ordered_json toJson(std::span<const cycles::CodeDigit> digits, control::ControlSet controls) {
   auto list = nlohmann::ordered_json::array();
   for (const cycles::CodeDigit& digit : digits) {
     nlohmann::ordered_json entry = {{"place", digit.place}, {"width", digit.width}, {"meaning", digit.meaning}};
-    if (!digit.choices.empty()) entry["choices"] = toJson(digit.choices);
+    if (!digit.choices.empty()) entry["choices"] = toJson(digit.choices, controls);
     list.push_back(std::move(entry));
   }
   return list;
 }
 
 /// What a value can be, by the kind of the parameter.
-void putRange(const Parameter& parameter, nlohmann::ordered_json& entry) {
+void putRange(const Parameter& parameter, control::ControlSet controls, nlohmann::ordered_json& entry) {
   if (parameter.kind == ValueKind::Option) {
-    entry["choices"] = toJson(parameter.choices);
+    entry["choices"] = toJson(parameter.choices, controls);
   } else if (isCode(parameter)) {
-    entry["digits"] = toJson(parameter.digits);
+    entry["digits"] = toJson(parameter.digits, controls);
   } else if (!parameter.digits.empty()) {
     entry["minimum"] = 0;
     entry["maximum"] = parameter.digits.front().most;
@@ -169,7 +189,9 @@ void putRange(const Parameter& parameter, nlohmann::ordered_json& entry) {
   entry["text"] = parameter.kind == ValueKind::Text || parameter.kind == ValueKind::NumberOrText;
 }
 
-nlohmann::ordered_json toJson(const CycleDefinition& cycle) {
+/// With `control`, what that one has, and in its ranges.
+nlohmann::ordered_json toJson(const CycleDefinition& cycle, std::optional<ControlKind> control) {
+  const control::ControlSet controls = control ? control::ControlSet::of(*control) : cycle.controls;
   nlohmann::ordered_json object = {{"name", cycle.name},
                                    {"number", cycle.number},
                                    {"title", cycle.title},
@@ -178,17 +200,24 @@ nlohmann::ordered_json toJson(const CycleDefinition& cycle) {
                                    {"summary", cycle.summary},
                                    {"parameters", nlohmann::ordered_json::array()},
                                    {"results", nlohmann::ordered_json::array()}};
-  for (const Parameter& parameter : cycle.parameters) {
+  for (const Parameter& each : cycle.parameters) {
+    if (control && !each.controls.contains(*control)) continue;
+    const Parameter parameter = control ? each.on(*control) : each;
     nlohmann::ordered_json entry = {
         {"name", parameter.name},
         {"meaning", parameter.meaning},
         {"unit", cycles::unitOf(parameter.kind)},
         {"required", parameter.required()},
         {"controls", namesOf({static_cast<std::uint8_t>(parameter.controls.bits & cycle.controls.bits)})}};
-    putRange(parameter, entry);
+    putRange(parameter, controls, entry);
+    for (const ControlKind kind : control::allControlKinds) {
+      if (control || !parameter.narrower.controls.contains(kind)) continue;
+      putRange(parameter.on(kind), controls, entry["on"][std::string(control::name(kind))]);
+    }
     if (parameter.predefinable) entry["predef"] = true;
     if (parameter.standard) entry["default"] = *parameter.standard;
-    if (parameter.iTNC530Software > 0) entry["iTNC530_from"] = softwareText(parameter);
+    if (parameter.iTNC530Software > 0 && control != ControlKind::TNC640)
+      entry["iTNC530_from"] = softwareText(parameter);
     object["parameters"].push_back(std::move(entry));
   }
   for (const auto& result : cycle.results) {
@@ -260,14 +289,14 @@ int cycles(const CyclesArguments& arguments) {
   auto list = nlohmann::ordered_json::array();
   for (const CycleDefinition* cycle : found) {
     if (arguments.asJson) {
-      list.push_back(toJson(*cycle));
+      list.push_back(toJson(*cycle, arguments.control));
     } else if (!named) {
       say("{}", row(*cycle, language));
     } else if (arguments.asTemplate) {
       const ControlKind kind = controls[static_cast<std::size_t>(std::ranges::find(known, cycle) - known.begin())];
       say("{}", session::knownFamilies().of(kind).cycleTemplate(*cycle, kind, language));
     } else {
-      show(*cycle, language);
+      show(*cycle, language, arguments.control);
     }
   }
   if (arguments.asJson) put(list.dump(2) + "\n", stdout);

@@ -14,9 +14,10 @@
 namespace probewright::cycles {
 namespace {
 
-std::string choicesText(std::span<const Choice> choices) {
+std::string choicesText(std::span<const Choice> choices, std::optional<ControlKind> kind = std::nullopt) {
   std::string text;
   for (const Choice& choice : choices) {
+    if (kind && !choice.controls.contains(*kind)) continue;
     if (!text.empty()) text += ", ";
     text += fmt::format("{} ({})", choice.value, choice.meaning);
   }
@@ -202,7 +203,15 @@ const Argument& Arguments::at(std::uint32_t address) const {
   return values_[static_cast<std::size_t>(parameter - definition_->parameters.data())];
 }
 
-std::string complaint(const Parameter& parameter, const Argument& argument) {
+Parameter Parameter::on(ControlKind control) const {
+  Parameter here = *this;
+  if (!narrower.controls.contains(control)) return here;
+  here.maximum = narrower.maximum;
+  if (!narrower.text && kind == ValueKind::NumberOrText) here.kind = ValueKind::Integer;
+  return here;
+}
+
+std::string complaint(const Parameter& parameter, const Argument& argument, ControlKind kind) {
   const auto head = [&] { return fmt::format("{} ({})", parameter.name, parameter.meaning); };
   if (argument.isText) {
     if (parameter.kind == ValueKind::Text || parameter.kind == ValueKind::NumberOrText) return {};
@@ -220,11 +229,12 @@ std::string complaint(const Parameter& parameter, const Argument& argument) {
   if (parameter.kind == ValueKind::Option) {
     const auto chosen = [&](const Choice& choice) { return choice.value == value; };
     if (std::ranges::any_of(parameter.choices, chosen)) return {};
-    return fmt::format("{} cannot be {}; it can be {}", head(), formatShortest(value), choicesText(parameter.choices));
+    return fmt::format("{} cannot be {}; it can be {}", head(), formatShortest(value),
+                       choicesText(parameter.choices, kind));
   }
   if (value < parameter.minimum || value > parameter.maximum) {
     return fmt::format("{} cannot be {}; its range is {} to {}{}{}", head(), formatShortest(value),
-                       formatShortest(parameter.minimum), formatShortest(parameter.maximum),
+                       formatShortest(parameter.minimum), formatShortest(parameter.on(kind).maximum),
                        unitOf(parameter.kind).empty() ? "" : " ", unitOf(parameter.kind));
   }
   return {};
@@ -311,7 +321,7 @@ Diagnostics check(const Arguments& arguments, ControlKind kind) {
                          definition.name, control::name(kind)));
       continue;
     }
-    std::string text = complaint(parameter, argument);
+    std::string text = complaint(parameter, argument, kind);
     if (!text.empty()) report(std::move(text));
   }
   return found;

@@ -35,6 +35,7 @@ std::string_view unitOf(ValueKind kind);
 struct Choice {
   int value = 0;
   std::string_view meaning;
+  ControlSet controls = control::onBothTNC | control::onSinumerik;  ///< that know it
 };
 
 /// One decimal digit of a coded whole number, or several that belong together.
@@ -44,6 +45,13 @@ struct CodeDigit {
   std::string_view meaning = {};         ///< "feature"
   std::span<const Choice> choices = {};  ///< what it can be; empty: 0 to `most`
   int most = 99999999;
+};
+
+/// What some controls take where others take more.
+struct Narrower {
+  ControlSet controls = {};
+  double maximum = 0;
+  bool text = true;  ///< false: a number only, where others take a text as well
 };
 
 struct Parameter {
@@ -60,6 +68,9 @@ struct Parameter {
   ControlSet controls = control::onBothTNC | control::onSinumerik;
   bool predefinable = false;  ///< HEIDENHAIN: may be PREDEF, taken from GLOBAL DEF
   int iTNC530Software = 0;    ///< xx of the NC software 340 49x-xx that brought it to the iTNC 530; 0: always there
+  Narrower narrower = {};
+  /// As this control has it: its range and whether it takes a text. Of the choices those count that list the control.
+  Parameter on(ControlKind kind) const;
   bool required() const { return !standard && kind != ValueKind::Text; }
 };
 
@@ -184,8 +195,9 @@ private:
   std::vector<Argument> values_;
 };
 
-/// What is wrong with the value for this parameter on this control, as one sentence; empty if nothing is.
-std::string complaint(const Parameter& parameter, const Argument& argument);
+/// What is wrong with the value for this parameter on every control that has it, as one sentence that names what this
+/// control takes; empty if nothing is. Values that this control alone lacks are the business of the cycle's rules.
+std::string complaint(const Parameter& parameter, const Argument& argument, ControlKind kind);
 
 /// "units", "tens", ... of CodeDigit::place.
 std::string_view placeName(int place);

@@ -16,8 +16,10 @@ namespace {
 using control::Alarm;
 using namespace parameters;
 
-constexpr Choice axisChoices[] = {
-    {0, "first axis of the table from the workpiece (TNC 640)"}, {4, "A axis"}, {5, "B axis"}, {6, "C axis"}};
+constexpr Choice axisChoices[] = {{0, "first axis of the table from the workpiece (TNC 640)", control::onTNC640},
+                                  {4, "A axis"},
+                                  {5, "B axis"},
+                                  {6, "C axis"}};
 
 constexpr Choice tableChoices[] = {{0, "into the active datum table"}, {1, "into the preset table"}};
 

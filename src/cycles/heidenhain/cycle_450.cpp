@@ -30,7 +30,7 @@ constexpr std::size_t placesTNC640 = 16, longestName = 16;
 constexpr Choice modes[] = {{0, "save the active kinematics"},
                             {1, "restore a record"},
                             {2, "show the records"},
-                            {3, "delete records (TNC 640)"}};
+                            {3, "delete records (TNC 640)", control::onTNC640}};
 
 constexpr Parameter parameters450[] = {
     option(410, "Q410", "mode", modes),
@@ -40,7 +40,8 @@ constexpr Parameter parameters450[] = {
                 "restoring and deleting with the wildcards ? $ # *",
      .kind = ValueKind::NumberOrText,
      .minimum = 0,
-     .maximum = 99999},
+     .maximum = 99999,
+     .narrower = {.controls = control::onITNC530, .maximum = 9, .text = false}},
 };
 
 constexpr int Save = 0, Restore = 1, Show = 2, Delete = 3;

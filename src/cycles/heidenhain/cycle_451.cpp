@@ -20,10 +20,11 @@ using control::heidenhain::Kinematics;
 using kinematics::ChainFit;
 using kinematics::ChainFitTask;
 
-constexpr Choice modes[] = {{0, "test: measure, and tell what could be optimised"},
-                            {1, "optimise the positions of the rotary axes"},
-                            {2, "optimise angles and positions (option 52)"},
-                            {3, "correct the machine datum, optimise angles and positions (option 52, TNC 640)"}};
+constexpr Choice modes[] = {
+    {0, "test: measure, and tell what could be optimised"},
+    {1, "optimise the positions of the rotary axes"},
+    {2, "optimise angles and positions (option 52)"},
+    {3, "correct the machine datum, optimise angles and positions (option 52, TNC 640)", control::onTNC640}};
 
 constexpr Parameter parameters451[] = {
     option(406, "Q406", "mode", modes),

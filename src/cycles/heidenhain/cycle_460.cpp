@@ -21,7 +21,7 @@ constexpr Parameter parameters460[] = {
     standardRadius("exact radius of the calibration sphere"),
     setUpClearance,
     moveToClearance,
-    calibrationTouches,
+    upToOn(calibrationTouches, control::onITNC530, 4),
     calibrationStartAngle,
     option(433, "Q433", "also calibrate the length", lengthChoices),
     coordinate(434, "Q434", "coordinate of the sphere's centre in the touch probe axis"),
@@ -119,6 +119,7 @@ constexpr CycleDefinition definition = {
 
 void rules(CallRules& call) {
   if (call.kind() != ControlKind::iTNC530 || call.number(423).value_or(4) <= 4) return;
+  if (*call.number(423) > calibrationTouches.maximum) return;  // on no control
   call.add(423, "Q423 takes four or three touches on the iTNC 530", "enter 4 or 3");
 }
 

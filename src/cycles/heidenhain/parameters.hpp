@@ -49,6 +49,12 @@ constexpr Parameter only(Parameter parameter, ControlSet controls) {
   return parameter;
 }
 
+/// The same parameter, whose largest value on some controls is less.
+constexpr Parameter upToOn(Parameter parameter, ControlSet controls, double maximum) {
+  parameter.narrower = {.controls = controls, .maximum = maximum};
+  return parameter;
+}
+
 /// The same parameter, which came to the iTNC 530 with the NC software 340 49x-`software`.
 constexpr Parameter later(Parameter parameter, int software) {
   parameter.iTNC530Software = software;

@@ -8,7 +8,7 @@ namespace probewright::cycles::heidenhain::parameters {
 inline constexpr Choice measuringModes[] = {
     {0, "measure: write the value into TOOL.T, clear the delta value"},
     {1, "check: write the deviation as delta value, lock the tool beyond its tolerances"},
-    {2, "compare only (TNC 640)"}};
+    {2, "compare only (TNC 640)", control::onTNC640}};
 inline constexpr Choice teethChoices[] = {{0, "the whole tool"}, {1, "each tooth"}};
 
 inline constexpr Parameter newToolForm[] = {

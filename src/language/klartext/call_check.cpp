@@ -322,7 +322,7 @@ void CallCheck::checkWord(const cycles::CycleDefinition& cycle, const Word& word
     argument.isText = true;
     argument.text = block_->at(node->text);
   }
-  std::string text = cycles::complaint(*parameter, argument);
+  std::string text = cycles::complaint(*parameter, argument, kind_);
   if (text.empty() && parameter->address == steppingAngle && std::abs(argument.number) < smallestStep) {
     text = fmt::format("{} cannot be {}", described(*parameter), formatShortest(argument.number));
   }

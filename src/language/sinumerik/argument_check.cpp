@@ -118,7 +118,7 @@ std::string wrongValue(const cycles::Parameter& parameter, const Given& given) {
   argument.isText = given.kind == Kind::Text;
   argument.number = given.number.value_or(parameter.standard.value_or(0));
   argument.text = given.text;
-  std::string wrong = cycles::complaint(parameter, argument);
+  std::string wrong = cycles::complaint(parameter, argument, cycles::ControlKind::Sinumerik840Dsl);
   if (wrong.empty() && given.number) {
     wrong = cycles::codeComplaint(parameter, argument);
     if (!wrong.empty()) wrong += cycles::sinumerik::versionNote(parameter, argument.number);
