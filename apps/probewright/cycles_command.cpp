@@ -60,6 +60,11 @@ std::string rangeText(const Parameter& parameter, DialogLanguage language) {
                                         {formatShortest(parameter.minimum), formatShortest(parameter.maximum)});
   const std::string_view unit = cycles::unitOf(parameter.kind);
   if (!unit.empty()) text += fmt::format(" {}", unit);
+  const control::ControlSet worded = {static_cast<std::uint8_t>(parameter.feedWords.bits & parameter.controls.bits)};
+  if (worded.bits != 0) text += " " + words::ofCatalogue(language, "or FMAX, FAUTO");
+  if (const auto without = parameter.controls.bits & control::onBothTNC.bits & ~worded.bits;
+      worded.bits != 0 && without)
+    text += fmt::format(" ({})", words::ofCatalogue(language, "{0} only", {controlsText(worded)}));
   if (parameter.kind == ValueKind::NumberOrText) text += " " + words::ofCatalogue(language, "or a text");
   return text;
 }
@@ -115,7 +120,7 @@ void show(const CycleDefinition& cycle, DialogLanguage language, std::optional<C
     here.bits = static_cast<std::uint8_t>(here.bits & cycle.controls.bits);
     if (!control && here.bits != cycle.controls.bits)
       line += "; " + words::ofCatalogue(language, "{0} only", {controlsText(here)});
-    if (parameter.iTNC530Software > 0 && control != ControlKind::TNC640)
+    if (parameter.iTNC530Software > 0)
       line += "; " + words::ofCatalogue(language, "iTNC530 from {0} on", {softwareText(parameter)});
     say("  {:<{}} {}\n", "", width, line);
     for (const cycles::Choice& choice : parameter.choices) {
@@ -208,15 +213,18 @@ nlohmann::ordered_json toJson(const CycleDefinition& cycle, std::optional<Contro
         {"meaning", parameter.meaning},
         {"unit", cycles::unitOf(parameter.kind)},
         {"required", parameter.required()},
-        {"controls", namesOf({static_cast<std::uint8_t>(parameter.controls.bits & cycle.controls.bits)})}};
+        {"controls", namesOf({static_cast<std::uint8_t>(each.controls.bits & cycle.controls.bits)})}};
     putRange(parameter, controls, entry);
     for (const ControlKind kind : control::allControlKinds) {
       if (control || !parameter.narrower.controls.contains(kind)) continue;
       putRange(parameter.on(kind), controls, entry["on"][std::string(control::name(kind))]);
     }
+    for (const ControlKind kind : control::allControlKinds)
+      if (parameter.feedWords.contains(kind) && controls.contains(kind))
+        entry["feed_words"].push_back(control::name(kind));
     if (parameter.predefinable) entry["predef"] = true;
     if (parameter.standard) entry["default"] = *parameter.standard;
-    if (parameter.iTNC530Software > 0 && control != ControlKind::TNC640)
+    if (parameter.iTNC530Software > 0)
       entry["iTNC530_from"] = softwareText(parameter);
     object["parameters"].push_back(std::move(entry));
   }

@@ -205,6 +205,8 @@ const Argument& Arguments::at(std::uint32_t address) const {
 
 Parameter Parameter::on(ControlKind control) const {
   Parameter here = *this;
+  here.controls = ControlSet::of(control);
+  if (!withSoftware.contains(control)) here.iTNC530Software = 0;
   if (!narrower.controls.contains(control)) return here;
   here.maximum = narrower.maximum;
   if (!narrower.text && kind == ValueKind::NumberOrText) here.kind = ValueKind::Integer;
@@ -213,6 +215,13 @@ Parameter Parameter::on(ControlKind control) const {
 
 std::string complaint(const Parameter& parameter, const Argument& argument, ControlKind kind) {
   const auto head = [&] { return fmt::format("{} ({})", parameter.name, parameter.meaning); };
+  if (argument.isText && parameter.kind == ValueKind::Feed) {
+    const bool words = parameter.feedWords.contains(kind);
+    if (words && (argument.text == "FMAX" || argument.text == "FAUTO")) return {};
+    return fmt::format("{} cannot be {}; its range is {} to {} mm/min{}", head(), argument.text,
+                       formatShortest(parameter.minimum), formatShortest(parameter.on(kind).maximum),
+                       words ? ", or FMAX, FAUTO" : "");
+  }
   if (argument.isText) {
     if (parameter.kind == ValueKind::Text || parameter.kind == ValueKind::NumberOrText) return {};
     return fmt::format("{} takes a number, not a text", head());

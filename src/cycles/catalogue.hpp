@@ -68,8 +68,12 @@ struct Parameter {
   ControlSet controls = control::onBothTNC | control::onSinumerik;
   bool predefinable = false;  ///< HEIDENHAIN: may be PREDEF, taken from GLOBAL DEF
   int iTNC530Software = 0;    ///< xx of the NC software 340 49x-xx that brought it to the iTNC 530; 0: always there
+  static constexpr ControlSet withSoftware = control::onITNC530;  ///< controls that iTNC530Software is about
   Narrower narrower = {};
-  /// As this control has it: its range and whether it takes a text. Of the choices those count that list the control.
+  /// Of a feed: the controls on which FMAX and FAUTO may stand for the number.
+  ControlSet feedWords = {};
+  /// As this control, which has it, has it: its range, whether it takes a text, what brought it. Of the choices those
+  /// count that list the control.
   Parameter on(ControlKind kind) const;
   bool required() const { return !standard && kind != ValueKind::Text; }
 };

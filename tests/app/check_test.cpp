@@ -400,58 +400,6 @@ TEST(Cycles, TellOtherProgramsWhatTheTextTells) {
   EXPECT_TRUE(text);
 }
 
-/// The parameter in the answer of `probewright cycles CYCLE --json` with these options.
-nlohmann::json catalogued(const char* cycle, const std::string& name, const std::vector<std::string>& options = {}) {
-  std::vector<std::string> command = {"cycles", cycle, "--json"};
-  command.insert(command.end(), options.begin(), options.end());
-  const auto all = nlohmann::json::parse(probewright(command).output).at(0);
-  for (const auto& each : all["parameters"])
-    if (each["name"] == name) return each;
-  return {};
-}
-
-// What the iTNC 530 refuses of these parameters, klartext/check_test.cpp and the tests of the cycles show.
-TEST(Cycles, PrintWhatTheControlTakes) {
-  const std::vector<std::string> old = {"--control", "iTNC530"}, young = {"--control", "TNC640"};
-  const auto text = [](std::vector<std::string> command) {
-    command.insert(command.begin(), "cycles");
-    return probewright(command).output;
-  };
-  EXPECT_THAT(text({"460", "--control", "iTNC530"}), HasSubstr("           3 to 4\n"));
-  EXPECT_THAT(text({"460", "--control", "TNC640"}), HasSubstr("           3 to 8\n"));
-  EXPECT_THAT(text({"460"}), HasSubstr("           3 to 8; iTNC530: 3 to 4\n"));
-  // A parameter that only the other one has.
-  EXPECT_THAT(text({"460", "--control", "iTNC530"}), Not(HasSubstr("Q455")));
-  EXPECT_THAT(text({"460", "--control", "TNC640"}), Not(HasSubstr("TNC640 only")));
-  EXPECT_THAT(text({"460"}), HasSubstr("TNC640 only"));
-  EXPECT_THAT(text({"412", "--control", "iTNC530"}), HasSubstr("340 49x-05"));
-  EXPECT_THAT(text({"412", "--control", "TNC640"}), Not(HasSubstr("340 49x-05")));
-  EXPECT_EQ(catalogued("460", "Q423", old)["maximum"], 4);
-  EXPECT_EQ(catalogued("460", "Q423", young)["maximum"], 8);
-  EXPECT_EQ(catalogued("460", "Q423")["maximum"], 8);
-  EXPECT_EQ(catalogued("460", "Q423")["on"]["iTNC530"]["maximum"], 4);
-  EXPECT_TRUE(catalogued("460", "Q455", old).is_null());
-  EXPECT_EQ(catalogued("450", "Q409", old)["maximum"], 9);
-  EXPECT_EQ(catalogued("450", "Q409", old)["text"], false);
-  EXPECT_EQ(catalogued("450", "Q409")["text"], true);
-  const auto values = [](const nlohmann::json& parameter) {
-    std::vector<int> all;
-    for (const auto& choice : parameter["choices"])
-      all.push_back(choice["value"]);
-    return all;
-  };
-  using Values = std::vector<int>;
-  for (const char* tool : {"481", "482", "483"})
-    EXPECT_EQ(values(catalogued(tool, "Q340", old)), (Values{0, 1})) << tool;
-  EXPECT_EQ(values(catalogued("31", "CHECK", old)), (Values{0, 1}));
-  EXPECT_EQ(values(catalogued("31", "CHECK", young)), (Values{0, 1, 2}));
-  EXPECT_EQ(values(catalogued("403", "Q312", old)), (Values{4, 5, 6}));
-  EXPECT_EQ(values(catalogued("450", "Q410", old)), (Values{0, 1, 2}));
-  EXPECT_EQ(values(catalogued("451", "Q406", old)), (Values{0, 1, 2}));
-  EXPECT_EQ(values(catalogued("451", "Q406", young)), (Values{0, 1, 2, 3}));
-  EXPECT_EQ(catalogued("451", "Q406")["choices"][3]["controls"], nlohmann::json({"TNC640"}));
-}
-
 TEST(Cycles, KnowTheCircleThroughPoints) {
   const Answer answer = probewright({"cycles", "CYCLE116"});
   EXPECT_EQ(answer.exit, 0);

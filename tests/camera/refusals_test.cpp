@@ -55,6 +55,13 @@ TEST(CameraRefusals, OfValuesOutOfRange) {
   refused(local(2, 10), "Q309");
   refused(local(0, 10, 2), "Q613");
   refused(global(0, 10, 0), "Q616");
+  // The manual knows a number only: FMAX would go in rapid traverse, FAUTO at the feed of TOOL CALL.
+  for (const char* feed : {"FMAX", "FAUTO", "FU1", "FZ1"}) {
+    std::string block = global(0, 10, 4711);
+    block.replace(block.find("4711"), 4, feed);
+    refused(block, "Q616");
+    refused(block, "cannot be F");
+  }
 }
 
 TEST(CameraRefusals, OfNamesThatNoFileCanHave) {

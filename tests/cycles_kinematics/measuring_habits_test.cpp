@@ -39,6 +39,22 @@ TEST(SpherePreset, IsSetBeforeAndAfterMeasuring) {
   }
 }
 
+/// GLOBAL DEF may hold FMAX and FAUTO; a cycle with PREDEF then goes as with the word itself.
+TEST(PositioningFeed, OfGlobalDefMayBeFmax) {
+  const auto ranWith = [](const std::string& before, const std::string& feed) {
+    SphereWorld world(builds()[0]);
+    std::string block = probe(451, words451(world.build, 0));
+    const std::size_t at = block.find("Q253=");
+    block.replace(at, block.find_first_of(" ;\n", at) - at, "Q253=" + feed);
+    const Ran ran = world.bench.run("L Z+20 R0 FMAX\n" + before + block);
+    EXPECT_TRUE(ended(ran)) << feed << ": " << ran.why();
+    return ran.outcome.info.totalSeconds;
+  };
+  const std::string global = "GLOBAL DEF 100 GENERAL ~\n Q200=2 ~\n Q204=50 ~\n Q253=FMAX ~\n Q208=999\n";
+  EXPECT_NEAR(ranWith(global, "PREDEF"), ranWith("", "FMAX"), 1e-6);
+  EXPECT_GT(ranWith("", "500"), 1.2 * ranWith("", "FMAX"));
+}
+
 TEST(Backlash, OfEachAxisIsInTheLog) {
   for (const double overrun : {0.5, -1.0}) {
     SphereWorld world(builds()[0]);

@@ -350,6 +350,28 @@ TEST(Check, RefusesResultsInOtherParameters) {
   }
 }
 
+// The input ranges of the manuals: a feed of a cycle is a number, in some cycles also FMAX or FAUTO, in none FU or FZ.
+TEST(Check, KnowsWhereFmaxMayStand) {
+  const auto fast = [](const std::string& feed) {
+    return framed(call + "TCH PROBE 441 FAST PROBING ~\n Q396=" + feed + " ~\n Q397=0 ~\n Q399=0 ~\n Q400=0\n");
+  };
+  const auto global = [](const std::string& feed) {
+    return framed(call + "TCH PROBE 600 GLOBAL ~\n QS600=\"OS\" ~\n Q616=" + feed + " ~\n Q309=0 ~\n Q617=10\n");
+  };
+  for (const char* feed : {"FMAX", "FAUTO"}) {
+    EXPECT_EQ(checked(fast(feed)), "") << feed;
+    EXPECT_NE(checked(fast(feed), control::ControlKind::iTNC530).find(fmt::format("cannot be {}", feed)),
+              std::string::npos);
+  }
+  for (const char* feed : {"FMAX", "FAUTO", "FU0.1", "FZ0.1", "\"X\""})
+    EXPECT_NE(checked(global(feed)).find("its range is 0.001 to 99999.999 mm/min"), std::string::npos) << feed;
+  for (const char* feed : {"FU0.1", "FZ0.1", "\"X\""})
+    EXPECT_NE(checked(fast(feed)).find("its range is 0 to 99999.9999 mm/min, or FMAX, FAUTO"), std::string::npos)
+        << feed;
+  for (const char* feed : {"500", "Q5", "Q5*2"})
+    EXPECT_EQ(checked(global(feed)) + checked(fast(feed)), "") << feed;
+}
+
 TEST(Check, KnowsWhatTheOlderControlLacks) {
   const std::string sphere =
       "TCH PROBE 460 CALIBRATE ~\n Q407=12 ~\n Q320=0 ~\n Q301=1 ~\n Q423=8 ~\n Q380=0 ~\n"

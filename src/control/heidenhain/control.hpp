@@ -87,6 +87,7 @@ public:
   struct GlobalDefinition {
     double value = 0;
     double unit = 1;
+    std::string text = {};  ///< FMAX or FAUTO, which stands for the value
   };
   std::map<int, GlobalDefinition> globalDefinitions;
   ProbingOverrides overrides;  ///< reset at the end of the main program

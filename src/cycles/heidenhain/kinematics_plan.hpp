@@ -33,7 +33,8 @@ inline constexpr Parameter positioningFeed = {.name = "Q253",
                                               .meaning = "feed rate for pre-positioning",
                                               .kind = ValueKind::Feed,
                                               .minimum = 0.0001,
-                                              .predefinable = true};
+                                              .predefinable = true,
+                                              .feedWords = control::onBothTNC};
 inline constexpr Parameter touchReference = angle(380, "Q380", "angle of the first touch about the tool axis", 0, 360);
 inline constexpr Parameter sphereTouches = {.name = "Q423",
                                             .address = 423,

@@ -32,8 +32,9 @@ constexpr Parameter parameters998[] = {
     parameters::dataSet(3),
     parameters::length(
         4, "S_SETV",
-        "with protection zone: distance to the measuring height; where S_MD leaves the measuring direction "
-        "open, it is this sign, without protection zone the direction from the probe to this value"),
+        "with protection zone: way along the measuring axis (S_MA), from the start position until S_FA in front of "
+        "point 1; where S_MD leaves the measuring direction open, it is this sign, without protection zone the "
+        "direction from the probe to this value"),
     parameters::angle(5, "S_STA1", "set angle of the edge, or of the plane about the 1st axis"),
     parameters::angle(6, "S_INCA", "set angle of the plane about the 2nd axis"),
     parameters::measuringPath(7),

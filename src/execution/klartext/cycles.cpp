@@ -9,6 +9,7 @@
 #include "cycles/heidenhain/registry.hpp"
 #include "execution/klartext/cycles.hpp"
 #include "language/klartext/commands.hpp"
+#include "language/klartext/cycle_writer.hpp"
 
 /// Patterns of points are in cycle_patterns.cpp.
 namespace probewright::execution::klartext {
@@ -92,6 +93,19 @@ void Cycles::moveToCallPosition(const Command& command, Evaluation& evaluation) 
   if (machiningCycle_ == 12) control_.channel.moveTo(plane.xyzFromPlane(to), feed);
 }
 
+namespace {
+
+/// Alarm if the parameter cannot be this text.
+void refuseText(const cycles::Parameter& parameter, std::string_view text, control::ControlKind kind) {
+  cycles::Argument argument;
+  argument.isText = true;
+  argument.text = text;
+  std::string why = cycles::complaint(parameter, argument, kind);
+  if (!why.empty()) throw Alarm("Cycle parameter wrong", std::move(why), "correct the value");
+}
+
+}  // namespace
+
 void Cycles::measure(const CycleCall& call, Evaluation& evaluation) {
   const cycles::heidenhain::Entry* entry = cycles::heidenhain::findEntry(call.number);
   if (entry == nullptr && isOfBuilder(call.number)) {
@@ -117,10 +131,13 @@ void Cycles::measure(const CycleCall& call, Evaluation& evaluation) {
                         : fmt::format("Cycle {} does not take one of its words", call.number),
                   "take the parameter out of the cycle");
     }
+    if (const std::string_view perTurn = language::klartext::feedPerTurn(evaluation.block(), word); !perTurn.empty())
+      refuseText(*parameter, perTurn, control_.kind());
     // MB MAX: as far as the parameter goes.
     Value value = word.value.present() ? evaluation.value(word.value) : Value(parameter->maximum);
     if (isText(value) && parameter->kind == cycles::ValueKind::Feed) {
       const std::string& text = std::get<std::string>(value);
+      refuseText(*parameter, text, control_.kind());
       value = text == "FMAX" ? parameter->maximum : control_.tool.feed / control_.unit;
     }
     constexpr std::uint32_t coordinate = cycles::heidenhain::probe_word::coordinate;

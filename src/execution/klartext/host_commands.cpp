@@ -79,8 +79,9 @@ void KlartextHost::defineGlobally(const Command& command, Evaluation& evaluation
   }
   for (std::size_t i = 1; i < words.size(); ++i) {
     const Value value = evaluation.value(words[i].value);
-    if (isText(value)) continue;
-    control_.globalDefinitions[static_cast<int>(words[i].address)] = {std::get<double>(value), control_.unit};
+    auto& defined = control_.globalDefinitions[static_cast<int>(words[i].address)];
+    defined = {isText(value) ? 0 : std::get<double>(value), control_.unit,
+               isText(value) ? std::get<std::string>(value) : std::string()};
   }
 }
 

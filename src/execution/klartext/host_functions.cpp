@@ -51,7 +51,8 @@ Value KlartextHost::call(std::string_view name, std::span<const Value> arguments
                   "program GLOBAL DEF before the cycle, or write the value into the cycle");
     }
     // Q301 is a choice; all others are lengths and feeds.
-    const auto& [value, unit] = found->second;
+    const auto& [value, unit, text] = found->second;
+    if (!text.empty()) return text;  // FMAX, FAUTO
     return number == 301 || unit == control_.unit ? value : value * unit / control_.unit;
   }
   if (name == "FU") return numberArgument(arguments, 0) * control_.tool.spindleSpeed;

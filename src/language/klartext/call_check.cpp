@@ -317,10 +317,10 @@ void CallCheck::checkWord(const cycles::CycleDefinition& cycle, const Word& word
       remarkAt(word, fmt::format("{} cannot be PREDEF", described(*parameter)), "write its value");
       return;
     }
-    if (node->operation != Operation::Text) return;  // computed while the program runs
-    if (parameter->kind == cycles::ValueKind::Feed) return;
+    const std::string_view perTurn = feedPerTurn(*block_, word);
+    if (node->operation != Operation::Text && perTurn.empty()) return;  // computed while the program runs
     argument.isText = true;
-    argument.text = block_->at(node->text);
+    argument.text = perTurn.empty() ? block_->at(node->text) : perTurn;
   }
   std::string text = cycles::complaint(*parameter, argument, kind_);
   if (text.empty() && parameter->address == steppingAngle && std::abs(argument.number) < smallestStep) {

@@ -98,6 +98,18 @@ std::string unsignedValue(const Block& block, const Operand& operand) {
   return text.starts_with('+') ? text.substr(1) : text;
 }
 
+}  // namespace
+
+std::string_view feedPerTurn(const Block& block, const Word& word) {
+  if (word.value.node < 0) return {};
+  const Node& node = block.nodes[static_cast<std::size_t>(word.value.node)];
+  if (node.operation != Operation::Call || node.function != Function::Host) return {};
+  const std::string_view written = block.at(node.text);
+  return written == "FU" || written == "FZ" ? written : std::string_view();
+}
+
+namespace {
+
 std::string parameterText(const Block& block, const Word& word) {
   std::string_view name = "Q";
   if (word.value.node >= 0) {
@@ -108,8 +120,7 @@ std::string parameterText(const Block& block, const Word& word) {
       name = "QS";
     } else if (node.operation == Operation::Call && node.function == Function::Host && written == "PREDEF") {
       return fmt::format("Q{}=PREDEF", word.address);
-    } else if (node.operation == Operation::Call && node.function == Function::Host &&
-               (written == "FU" || written == "FZ")) {
+    } else if (!feedPerTurn(block, word).empty()) {
       return fmt::format("Q{}={}{}", word.address, written, unsignedValue(block, block.operands[node.a]));
     }
   }
