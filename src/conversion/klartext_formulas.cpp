@@ -13,6 +13,7 @@
 #include "conversion/sinumerik_formulas.hpp"
 #include "cycles/catalogue.hpp"
 #include "language/klartext/formula_writer.hpp"
+#include "language/sinumerik/check.hpp"
 
 namespace probewright::conversion {
 
@@ -34,6 +35,19 @@ bool isParameter(std::string_view text) {
 }
 
 constexpr int results = 32;  ///< _OVR[0] to _OVR[31]
+
+/// What the measuring cycles of a SINUMERIK leave in `element`, such as "_OVI[9]": its English text, empty where
+/// several leave different things there. Nothing if it is a result of none.
+std::optional<std::string> leftByCycles(std::string_view element) {
+  std::optional<std::string> found;
+  for (const cycles::CycleDefinition* cycle : cycles::cyclesOf(control::ControlKind::Sinumerik840Dsl)) {
+    const cycles::ResultDefinition* result = cycle->result(element);
+    if (result == nullptr) continue;
+    const std::string meaning = result->meaning.whole();
+    found = !found || *found == meaning ? meaning : std::string();
+  }
+  return found;
+}
 
 /// Q100 to Q199, which the control and its cycles fill, and what touch probe cycles take and leave beyond.
 const std::set<int>& parametersOfCycles() {
@@ -169,6 +183,19 @@ std::string KlartextFormulas::userVariable(const Block& block, const VariableRef
   if (!indices.empty()) element += ']';
   if (const auto found = names_.find(element); found != names_.end()) return found->second;
   if (!isGlobal(name)) {
+    const bool ofControl = language::sinumerik::isGlobalUserData(name);
+    if (const auto left = ofControl ? leftByCycles(element) : std::nullopt) {
+      throw NotCarriedOver(
+          fmt::format("{}, a result of measuring cycles{}, has no counterpart: touch probe cycles of the "
+                      "other control do not tell it",
+                      element, left->empty() ? "" : fmt::format(" ({})", *left)),
+          "take the statement out, or write by hand what it is to decide");
+    }
+    if (ofControl) {
+      throw NotCarriedOver(
+          fmt::format("{} belongs to the measuring cycles of the control and has no counterpart in Klartext", element),
+          "take the statement out, or write by hand what it is to do");
+    }
     throw NotCarriedOver(
         fmt::format("{} is not defined in this program", element),
         "define it in the program, use an R parameter, or name with --setup the setup whose definition "
