@@ -224,8 +224,7 @@ nlohmann::ordered_json toJson(const CycleDefinition& cycle, std::optional<Contro
         entry["feed_words"].push_back(control::name(kind));
     if (parameter.predefinable) entry["predef"] = true;
     if (parameter.standard) entry["default"] = *parameter.standard;
-    if (parameter.iTNC530Software > 0)
-      entry["iTNC530_from"] = softwareText(parameter);
+    if (parameter.iTNC530Software > 0) entry["iTNC530_from"] = softwareText(parameter);
     object["parameters"].push_back(std::move(entry));
   }
   for (const auto& result : cycle.results) {
