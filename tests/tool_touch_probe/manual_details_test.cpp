@@ -37,6 +37,31 @@ TEST(ToolDetails, TheDisplayOfTheOlderControlHasRoomFor24Teeth) {
   }
 }
 
+/// Single teeth are measured without a tool table: CUT comes from the setup. A round tool has no entry, as 0 means a
+/// standing spindle.
+TEST(ToolDetails, TheSetupTellsTheNumberOfTeeth) {
+  for (const ControlKind kind : kinds) {
+    for (const int teeth : {0, 1, 3, 20}) {
+      ToolWorld world(kind);
+      world.disc(40);
+      simulation::TrueTool mill;
+      mill.length = 80;
+      mill.radius = 12;
+      for (int i = 0; i < teeth; ++i)
+        mill.cutter.teeth.push_back({.angle = 360.0 * i / teeth, .axial = -0.001 * i});
+      world.add(mill, 12, 80, 12);
+      for (auto& tool : world.bench.setup.beliefs.tools)
+        if (tool.number == 12) setup::believeAsCalibrated(tool, world.bench.setup.world.truth.tools.back());
+      const Ran whole = world.run(toolCycle(482, 0, false, false));
+      EXPECT_TRUE(whole.finished()) << whole.why();
+      const Ran ran = world.run(toolCycle(482, 0, true, false));
+      EXPECT_EQ(ran.finished(), teeth > 0) << teeth << ran.why();
+      if (teeth == 0) continue;
+      EXPECT_EQ(ran.touches(), 1U + static_cast<std::size_t>(teeth));
+    }
+  }
+}
+
 /// Q260 of GLOBAL DEF 120.
 TEST(ToolDetails, TheClearanceHeightMayComeFromGlobalDef) {
   for (const ControlKind kind : kinds) {

@@ -98,6 +98,8 @@ void enterTool(hh::Tables& tables, const BelievedTool& tool, bool probeRow, cons
       entry.number("CAL-ANG", tool.calibrationAngle);
     }
     if (tool.kind == "turn") entry.text("TYP", "TURN");
+    // 0 would stand for a tool that is measured with a standing spindle.
+    if (tool.teeth > 0) entry.number("CUT", tool.teeth);
   }
   if (tool.kind == "turn" && tables.turningTools && !tables.turningTools->hasRow(row)) {
     Entry entry(*tables.turningTools, row, beliefs, diagnostics);
