@@ -247,8 +247,25 @@ void Channel::count(const AxisPositions& from, const AxisPositions& to) {
   if (CycleRecord* cycle = journal_.open()) cycle->pathLength += length;
 }
 
-void Channel::moveAxes(const AxisPositions& target, Feed feed) {
-  const AxisPositions start = axes();
+namespace {
+
+/// The target as a control orders it: an axis that only rounding leads beyond an end of its travel (by up to 1e-9 mm or
+/// degrees, as after the way through a tilted system and back) goes to that end.
+AxisPositions withinTravel(const machine::MachineDescription& description, AxisPositions target) {
+  constexpr double rounding = 1e-9;
+  for (std::size_t i = 0; i < description.axes.size(); ++i) {
+    const machine::Axis& axis = description.axes[i];
+    if (axis.kind == machine::AxisKind::Rotary && axis.modulo) continue;
+    const double inside = std::clamp(target[i], axis.minimum, axis.maximum);
+    if (std::abs(target[i] - inside) <= rounding) target[i] = inside;
+  }
+  return target;
+}
+
+}  // namespace
+
+void Channel::moveAxes(const AxisPositions& end, Feed feed) {
+  const AxisPositions start = axes(), target = withinTravel(description_, end);
   if (start == target) return;
   machine::MoveResult result = machine_.move(target, feed);
   count(start, axes());
@@ -261,6 +278,8 @@ void Channel::moveAxes(const AxisPositions& target, Feed feed) {
 void Channel::travel(std::vector<machine::PathPiece> path) {
   const AxisPositions start = axes();
   AxisPositions last = start;
+  for (machine::PathPiece& piece : path)
+    piece.target = withinTravel(description_, piece.target);
   std::erase_if(path,
                 [&](const machine::PathPiece& piece) { return std::exchange(last, piece.target) == piece.target; });
   if (path.empty()) return;
@@ -342,7 +361,7 @@ void Channel::moveTo(const Target& target, Feed feed) {
 
 machine::MeasureResult Channel::measureTo(const ProgramPlace& tip, Feed feed, machine::Sensor sensor, TouchWith part) {
   const AxisPositions start = axes();
-  const AxisPositions target = axesFromProgram(tip, start);
+  const AxisPositions target = withinTravel(description_, axesFromProgram(tip, start));
   journal_.programFromTable = programFromTable(start);
   machine::MeasureResult result = machine_.measure({target, feed, sensor, part});
   count(start, axes());
@@ -360,7 +379,7 @@ Touch Channel::touchFrom(const machine::MeasureResult& result) const {
 
 void Channel::retractTo(const ProgramPlace& tip, Feed feed) {
   const AxisPositions start = axes();
-  const AxisPositions target = axesFromProgram(tip, start);
+  const AxisPositions target = withinTravel(description_, axesFromProgram(tip, start));
   machine::MoveResult result = machine_.retract(target, feed);
   count(start, axes());
   note(result.end, start, target);
