@@ -372,6 +372,21 @@ TEST(Check, KnowsWhereFmaxMayStand) {
     EXPECT_EQ(checked(global(feed)) + checked(fast(feed)), "") << feed;
 }
 
+TEST(Check, KnowsTextsInTheWrongParameters) {
+  for (const char* block : {"Q1 = \"A\"", "Q1 = QS2", "QL1 = QS2 || \"A\"", "QR1 = TOCHAR (DAT+5)"}) {
+    EXPECT_NE(checked(framed(fmt::format("{}\n", block))).find("a Q parameter takes a number, not a text"),
+              std::string::npos)
+        << block;
+  }
+  for (const char* block : {"QS2 = 5", "QS2 = Q1 + 2", "QS2 = SIN 30"})
+    EXPECT_NE(checked(framed(fmt::format("{}\n", block))).find("a QS parameter takes a text, not a number"),
+              std::string::npos)
+        << block;
+  for (const char* block : {"QS2 = \"A\" || QS1", "QS2 = TOCHAR (DAT+Q1 DECIMALS2)", "Q1 = TONUMB (SRC_QS1)",
+                            "Q1 = STRLEN (SRC_QS1)", "QS3 = SUBSTR (SRC_QS1 BEG0 LEN2)", "Q5 = QL1 * 2"})
+    EXPECT_EQ(checked(framed(fmt::format("QS1 = \"AB\"\n{}\n", block))), "") << block;
+}
+
 TEST(Check, KnowsWhatTheOlderControlLacks) {
   const std::string sphere =
       "TCH PROBE 460 CALIBRATE ~\n Q407=12 ~\n Q320=0 ~\n Q301=1 ~\n Q423=8 ~\n Q380=0 ~\n"

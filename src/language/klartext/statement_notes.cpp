@@ -222,7 +222,40 @@ void StatementNotes::look(const Block& block, const Transform& transform) {
   }
 }
 
+namespace {
+
+constexpr std::array<std::string_view, 3> textFunctions = {"TOCHAR", "SUBSTR", "SYSSTR"};
+
+/// Whether a value is a text, as far as its block tells.
+std::optional<bool> isTextual(const Block& block, const Operand& operand) {
+  if (operand.isLiteral()) return false;
+  if (!operand.present()) return std::nullopt;
+  const Node& node = block.nodes[static_cast<std::size_t>(operand.node)];
+  switch (node.operation) {
+    case Operation::Text:
+    case Operation::Concatenate:
+      return true;
+    case Operation::Variable:
+      return block.variables[node.a].space == VariableSpace::QS;
+    case Operation::Call:
+      if (node.function != Function::Host) return false;
+      if (std::ranges::find(textFunctions, block.at(node.text)) != textFunctions.end()) return true;
+      return std::nullopt;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
 void StatementNotes::look(const Block& block, const Assign& assign) {
+  const bool takesText = block.variables[assign.variable].space == VariableSpace::QS;
+  if (isTextual(block, assign.value) == !takesText) {
+    note(Severity::Warning,
+         fmt::format("a {} takes a {}: the run stops at this block", takesText ? "QS parameter" : "Q parameter",
+                     takesText ? "text, not a number" : "number, not a text"),
+         takesText ? "convert the number with TOCHAR" : "use a QS parameter, or TONUMB");
+  }
   constexpr double largest = 999'999'999;
   double value = 0;
   if (assign.value.isLiteral()) value = assign.value.number;
