@@ -140,9 +140,10 @@ const CycleDefinition* sinumerikCycle(std::string_view name) {
   return entry == nullptr ? nullptr : &entry->definition;
 }
 
-double inMillimetres(const Parameter& parameter, const Argument& argument, double unit) {
-  const bool counts = parameter.kind == ValueKind::Length || parameter.kind == ValueKind::Feed;
-  return counts && argument.given ? argument.number * unit : argument.number;
+double inMillimetres(const Parameter& parameter, const Argument& argument, double unit, double feedUnit) {
+  if (!argument.given) return argument.number;
+  if (parameter.kind == ValueKind::Feed) return argument.number * feedUnit;
+  return parameter.kind == ValueKind::Length ? argument.number * unit : argument.number;
 }
 
 control::ResultRecord resultRecord(std::string name, const ResultDefinition* definition, ValueKind kind, double value,

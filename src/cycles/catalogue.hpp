@@ -172,8 +172,9 @@ struct Argument {
   bool given = false;  ///< false: the standard value stands here
 };
 
-/// The value in mm, mm/min or degrees: lengths and feeds of a call count in units of `unit` mm, standard values in mm.
-double inMillimetres(const Parameter& parameter, const Argument& argument, double unit);
+/// The value in mm, mm/min or degrees: lengths of a call count in units of `unit` mm, feeds in units of `feedUnit`
+/// mm/min, standard values in mm and mm/min.
+double inMillimetres(const Parameter& parameter, const Argument& argument, double unit, double feedUnit);
 
 /// The arguments of one call, in the order of the definition's parameters.
 class Arguments {

@@ -150,7 +150,27 @@ TEST(Host, InchProgramsMoveInInches) {
   expectFinished(world.run("0 BEGIN PGM A INCH\nL X+1 Y-2 F10\nQ5 = 3\nL XQ5\n"));
   expectPath(world, {{25.4, -50.8, 0}, {76.2, -50.8, 0}});
   EXPECT_EQ(world.q(113), 1);
-  EXPECT_DOUBLE_EQ(world.machine->steps[0].feed.perMinute, 254);
+  // Feeds count in tenths of an inch a minute.
+  EXPECT_DOUBLE_EQ(world.machine->steps[0].feed.perMinute, 25.4);
+}
+
+/// F of TOOL CALL is the feed of the path until a block names another one; without F the feed stays.
+TEST(Host, TheFeedOfToolCallIsThatOfThePath) {
+  for (const bool inches : {false, true}) {
+    World world;
+    expectFinished(
+        world.run(fmt::format("0 BEGIN PGM A {}\nTOOL CALL 1 Z S1000 F300\nL X+1\nL X+2 F600\nTOOL CALL S50\nL X+3\n"
+                              "TOOL CALL F500\nL X+4\nL X+5 F200\nL X+6 FAUTO\nTOOL CALL 1 Z\nL X+7\nL X+8 FMAX\n"
+                              "FN 18: SYSREAD Q1 = ID20 NR9\n",
+                              inches ? "INCH" : "MM")));
+    const double unit = inches ? 2.54 : 1;
+    const std::vector<double> feeds = {300, 600, 600, 500, 200, 500, 500};
+    ASSERT_EQ(world.machine->steps.size(), feeds.size() + 1);
+    for (std::size_t i = 0; i < feeds.size(); ++i)
+      EXPECT_DOUBLE_EQ(world.machine->steps[i].feed.perMinute, feeds[i] * unit) << i;
+    EXPECT_TRUE(world.machine->steps.back().feed.rapid);
+    EXPECT_DOUBLE_EQ(world.q(1), 500 * unit);
+  }
 }
 
 /// Angles are degrees whatever the unit, and M126 leads an axis that turns without end the short way.

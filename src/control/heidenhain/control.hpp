@@ -58,6 +58,10 @@ struct ProbingOverrides {
 
 class Kinematics;
 
+/// mm/min in one unit of feed of a program whose lengths count in units of `unit` mm: in an INCH program F100 is 10
+/// inches a minute.
+constexpr double feedUnit(double unit) { return unit == 1 ? 1 : unit / 10; }
+
 class Control {
 public:
   Control(ControlKind kind, machine::Machine& machine, Tables tables, MachineParameters parameters = {});
@@ -66,6 +70,8 @@ public:
 
   ControlKind kind() const { return kind_; }
   bool isTNC640() const { return kind_ == ControlKind::TNC640; }
+  /// mm/min in one unit of feed of the program under way.
+  double feedUnit() const { return heidenhain::feedUnit(unit); }
 
   Journal journal;
   OperatorPanel panel;

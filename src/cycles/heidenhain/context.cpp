@@ -72,7 +72,8 @@ Context::Context(Control& control, const Entry& entry, const Arguments& argument
     if (!parameter.controls.contains(control.kind())) continue;
     record.parameters.push_back(
         {std::string(parameter.name), textOf(value), std::string(parameter.meaning), !value.given,
-         value.isText ? std::nullopt : std::optional(inMillimetres(parameter, value, control.unit))});
+         value.isText ? std::nullopt
+                      : std::optional(inMillimetres(parameter, value, control.unit, control.feedUnit()))});
   }
   record.startSeconds = control.channel.seconds();
   record_ = control.journal.cycles.size();
@@ -87,7 +88,7 @@ Context::~Context() {
 
 double Context::q(int number) const {
   const Parameter& parameter = parameterOf(arguments_, number);
-  return inMillimetres(parameter, arguments_.at(parameter.address), control_.unit);
+  return inMillimetres(parameter, arguments_.at(parameter.address), control_.unit, control_.feedUnit());
 }
 
 void Context::requireConditions() {

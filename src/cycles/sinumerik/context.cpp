@@ -84,7 +84,8 @@ Context::Context(Control& control, const Entry& entry, const Arguments& argument
     }
     record.parameters.push_back(
         {std::string(parameter.name), value.isText ? value.text : formatShortest(value.number), std::move(meaning),
-         !value.given, value.isText ? std::nullopt : std::optional(inMillimetres(parameter, value, control.unit))});
+         !value.given,
+         value.isText ? std::nullopt : std::optional(inMillimetres(parameter, value, control.unit, control.unit))});
   }
   record.startSeconds = control.channel.seconds();
   record_ = control.journal.cycles.size();
@@ -129,7 +130,7 @@ Context::~Context() {
 
 double Context::real(std::string_view name) const {
   const Parameter& parameter = required(arguments_, name);
-  return inMillimetres(parameter, arguments_.at(parameter.address), control_.unit);
+  return inMillimetres(parameter, arguments_.at(parameter.address), control_.unit, control_.unit);
 }
 
 int Context::integer(std::string_view name) const { return arguments_.integer(required(arguments_, name).address); }

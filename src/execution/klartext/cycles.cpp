@@ -83,7 +83,7 @@ void Cycles::callCycle(const Command& command, Evaluation& evaluation) {
 /// In the plane at the greater of the two heights; cycles that are skipped stay above.
 void Cycles::moveToCallPosition(const Command& command, Evaluation& evaluation) {
   const Word* feedWord = find(command.words, "F", evaluation);
-  const Feed feed = feedWord == nullptr ? Feed::rapidTraverse() : checkedFeed(run_.length(feedWord->value, evaluation));
+  const Feed feed = feedWord == nullptr ? Feed::rapidTraverse() : checkedFeed(run_.feed(feedWord->value, evaluation));
   const control::WorkingPlane& plane = control_.coordinates.plane;
   const PlanePlace from = plane.planeFromXyz(control_.channel.position());
   const PlanePlace to = plane.planeFromXyz(motion_.pointOf(command.words, evaluation, control_.channel.position()));
@@ -138,7 +138,7 @@ void Cycles::measure(const CycleCall& call, Evaluation& evaluation) {
     if (isText(value) && parameter->kind == cycles::ValueKind::Feed) {
       const std::string& text = std::get<std::string>(value);
       refuseText(*parameter, text, control_.kind());
-      value = text == "FMAX" ? parameter->maximum : control_.tool.feed / control_.unit;
+      value = text == "FMAX" ? parameter->maximum : control_.tool.feed / control_.feedUnit();
     }
     constexpr std::uint32_t coordinate = cycles::heidenhain::probe_word::coordinate;
     if (word.mode == WordMode::Incremental && call.number <= 1 && word.address < coordinate + 3 && !isText(value)) {

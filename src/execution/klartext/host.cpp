@@ -72,6 +72,7 @@ void KlartextHost::carryOut(const Move& move, Evaluation& evaluation) {
 void KlartextHost::carryOut(const ToolCall& call, Evaluation& evaluation) {
   motion_.settle();
   tools_.callTool(call, evaluation);
+  if (call.feed.present()) motion_.takeFeedOfTool();
 }
 
 void KlartextHost::carryOut(const Modal& modal, Evaluation& evaluation) {

@@ -50,13 +50,16 @@ Value KlartextHost::call(std::string_view name, std::span<const Value> arguments
       throw Alarm("GLOBAL DEF missing", fmt::format("Q{} is PREDEF, but no GLOBAL DEF gives it a value", number),
                   "program GLOBAL DEF before the cycle, or write the value into the cycle");
     }
-    // Q301 is a choice; all others are lengths and feeds.
     const auto& [value, unit, text] = found->second;
-    if (!text.empty()) return text;  // FMAX, FAUTO
-    return number == 301 || unit == control_.unit ? value : value * unit / control_.unit;
+    if (!text.empty()) return text;                            // FMAX, FAUTO
+    if (number == 301 || unit == control_.unit) return value;  // Q301 is a choice
+    const bool isFeed = number == 208 || number == 253;        // all others are lengths
+    return value * (isFeed ? control::heidenhain::feedUnit(unit) / control_.feedUnit() : unit / control_.unit);
   }
-  if (name == "FU") return numberArgument(arguments, 0) * control_.tool.spindleSpeed;
-  if (name == "FZ") return numberArgument(arguments, 0) * control_.tool.spindleSpeed * tools_.teeth();
+  // Inches per revolution make tenths of an inch per minute in an INCH program.
+  const double feedUnits = control_.unit / control_.feedUnit();
+  if (name == "FU") return numberArgument(arguments, 0) * control_.tool.spindleSpeed * feedUnits;
+  if (name == "FZ") return numberArgument(arguments, 0) * control_.tool.spindleSpeed * tools_.teeth() * feedUnits;
   if (name == "SELECTED PGM") {
     if (run_.selectedProgram.empty()) {
       throw Alarm("Program not selected", "CALL SELECTED PGM finds no program selected", "program SEL PGM before it");

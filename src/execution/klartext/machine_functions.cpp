@@ -137,7 +137,7 @@ void MachineFunctions::retractAlongTool(const MachineFunction& function, Evaluat
     }
   }
   Feed feed = Feed::rapidTraverse();
-  if (function.argument.present()) feed = checkedFeed(run_.length(function.argument, evaluation));
+  if (function.argument.present()) feed = checkedFeed(run_.feed(function.argument, evaluation));
   motion_.retract(distance, feed);
 }
 

@@ -69,7 +69,7 @@ Feed Motion::feedFor(double programmed) const {
 
 Feed Motion::feedOf(const Move& move, Evaluation& evaluation) {
   if (move.autoFeed) feed_ = control_.tool.feed;
-  if (move.feed.present()) feed_ = run_.length(move.feed, evaluation);
+  if (move.feed.present()) feed_ = run_.feed(move.feed, evaluation);
   const double perMinute = modes.feedPerRevolution ? 1 : control_.tool.spindleSpeed;
   if (const Word* perRevolution = find(move.words, "FU", evaluation)) {
     feed_ = run_.length(perRevolution->value, evaluation) * perMinute;
@@ -225,7 +225,7 @@ void Motion::straight(const Move& move, Evaluation& evaluation) {
   const Side side = sideOf(move);
   const bool hasWords = move.words.count > 0;
   if (!hasWords && !contour_.holds()) {
-    if (move.feed.present()) feed_ = run_.length(move.feed, evaluation);
+    if (move.feed.present()) feed_ = run_.feed(move.feed, evaluation);
     return;
   }
   const ProgramPlace from = programmedPosition();

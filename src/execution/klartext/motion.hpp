@@ -46,6 +46,8 @@ public:
   PathModes modes;
   /// mm/min, or with M136 mm per revolution; 0: none programmed yet.
   double feed() const { return feed_; }
+  /// The feed of TOOL CALL counts until a path block or another TOOL CALL names one.
+  void takeFeedOfTool() { feed_ = control_.tool.feed; }
 
 private:
   void straight(const Move& move, Evaluation& evaluation);

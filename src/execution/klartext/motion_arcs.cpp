@@ -170,7 +170,7 @@ void Motion::corner(const Move& move, Evaluation& evaluation) {
   const Word* size = find(move.words, "R", evaluation);
   if (size == nullptr) return;
   std::optional<Feed> feed;
-  if (move.feed.present()) feed = feedFor(run_.length(move.feed, evaluation));
+  if (move.feed.present()) feed = feedFor(run_.feed(move.feed, evaluation));
   const double value = run_.length(size->value, evaluation);
   if (move.kind == MoveKind::Rounding) {
     contour_.round(value, feed, placeOf(evaluation));

@@ -70,6 +70,10 @@ public:
   double length(const Operand& operand, Evaluation& evaluation) const {
     return evaluation.number(operand) * control.unit;
   }
+  /// A feed in the unit of the program, in mm/min.
+  double feed(const Operand& operand, Evaluation& evaluation) const {
+    return evaluation.number(operand) * control.feedUnit();
+  }
   /// The index of the machine's axis. Throws Alarm if it has none of that name.
   std::size_t axisOf(char letter) const;
   /// The bytes of a file of the control: at its path, or by its name alone.

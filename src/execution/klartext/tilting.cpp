@@ -226,7 +226,7 @@ void Tilting::positionRotaryAxes(const machine::AxisPositions& target, WordRange
   const Word* feedWord = find(words, "F", evaluation);
   if (stays || (!isMove && !isTurn && feedWord == nullptr)) return;
   control::Feed feed = control::Feed::rapidTraverse();
-  if (feedWord != nullptr) feed = checkedFeed(run_.length(feedWord->value, evaluation));
+  if (feedWord != nullptr) feed = checkedFeed(run_.feed(feedWord->value, evaluation));
   if (const Word* back = find(words, "MB", evaluation)) {
     std::optional<double> distance;
     if (back->value.present()) distance = run_.length(back->value, evaluation);

@@ -48,7 +48,7 @@ void Tools::callTool(const ToolCall& call, Evaluation& evaluation) {
     if (rotation != machine::Rotation::None) control_.channel.turnSpindle(rotation, speed);
   }
   if (call.cuttingSpeed.present()) run_.leaveOut("The cutting speed VC of TOOL CALL");
-  if (call.feed.present()) control_.tool.feed = run_.length(call.feed, evaluation);
+  if (call.feed.present()) control_.tool.feed = run_.feed(call.feed, evaluation);
   publishTool();
 }
 
