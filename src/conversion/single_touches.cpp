@@ -112,7 +112,7 @@ void ToSinumerik::singleTouch(const Block& block, const CycleCall& cycle, const 
   std::string move = "MEAS=1 G1";
   for (std::size_t i = 0; i < 3; ++i)
     move += fmt::format(" {}=IC({})", axisNames[i], sinumerikText(way[static_cast<Eigen::Index>(i)]));
-  out_.line(fmt::format("{} {}", move, addressWord("F", call.number(wordName(probe_word::feed)))));
+  out_.line(fmt::format("{} {}", move, addressWord("F", asFeed(call.number(wordName(probe_word::feed))))));
   const auto results = [&](const char* name, int status) {
     for (int i = 0; i < 3; ++i) {
       // The ball's centre lies one radius along the tool from the tip.
@@ -150,7 +150,7 @@ void ToSinumerik::singleTouch(const Block& block, const CycleCall& cycle, const 
 void ToKlartext::measuringBlock(const Block& block, const Command& command) {
   const auto words = std::span<const Word>(block.words).subspan(command.words.first, command.words.count);
   std::array<Quantity, 3> way;
-  std::optional<Quantity> feed;
+  std::optional<Quantity> stroke;
   if (!(quantity(block, words[0].value) == 1)) {
     throw NotCarriedOver("TCH PROBE 4 waits for the touch probe in the spindle to be deflected, as MEAS=1 does",
                          "write it by hand");
@@ -158,7 +158,7 @@ void ToKlartext::measuringBlock(const Block& block, const Command& command) {
   for (const Word& word : words.subspan(1)) {
     const std::string name = addressName(word.address);
     if (name == "F") {
-      feed = quantity(block, word.value);
+      stroke = feed(block, word.value);
       continue;
     }
     const auto index = planeIndex(word.address);
@@ -169,7 +169,8 @@ void ToKlartext::measuringBlock(const Block& block, const Command& command) {
     const auto i = static_cast<std::size_t>(std::ranges::find(axisNames, name) - axisNames.begin());
     way[i] = incremental ? value : value - here()[*index];
   }
-  if (!feed) throw NotCarriedOver("the feed of this measuring block is that of a block above", "write F in this block");
+  if (!stroke)
+    throw NotCarriedOver("the feed of this measuring block is that of a block above", "write F in this block");
   // The vector tells the direction, DIST how far; the stylus must not stay deflected.
   Quantity distance = way[0];
   const bool numbers = std::ranges::all_of(way, &Quantity::isNumber);
@@ -182,10 +183,10 @@ void ToKlartext::measuringBlock(const Block& block, const Command& command) {
   std::string vector = "TCH PROBE 4.2";
   for (std::size_t i = 0; i < 3; ++i)
     vector += fmt::format(" I{}{}", axisNames[i], formulas_.value(way[i]));
-  const std::string stroke = fmt::format("TCH PROBE 4.3 DIST {} F{} MB MAX REFERENCE SYSTEM:0",
-                                         formulas_.value(distance), formulas_.unsignedValue(*feed));
+  const std::string touch = fmt::format("TCH PROBE 4.3 DIST {} F{} MB MAX REFERENCE SYSTEM:0",
+                                        formulas_.value(distance), formulas_.unsignedValue(*stroke));
   writeWhole({"TCH PROBE 4.0 MEASURING IN 3-D",
-              fmt::format("TCH PROBE 4.1 {}", formulas_.measuringBlock(axis(2)[0] - 'X')), vector, stroke});
+              fmt::format("TCH PROBE 4.1 {}", formulas_.measuringBlock(axis(2)[0] - 'X')), vector, touch});
   forgetPosition();
   besideMeasured_ = true;
 }

@@ -38,6 +38,36 @@ std::string_view functionName(Function function) {
   return {};
 }
 
+/// The value of an expression of numbers alone.
+std::optional<double> constantOf(const Block& block, const Operand& operand) {
+  if (operand.isLiteral()) return operand.number;
+  if (!operand.present()) return std::nullopt;
+  const Node& node = block.nodes[static_cast<std::size_t>(operand.node)];
+  const auto left = [&] { return constantOf(block, node.left); };
+  switch (node.operation) {
+    case Operation::Number:
+      return node.number;
+    case Operation::Negate:
+      if (const auto value = left()) return -*value;
+      return std::nullopt;
+    case Operation::Power:
+      if (const auto base = left(), exponent = constantOf(block, node.right); base && exponent) {
+        const double value = std::pow(*base, *exponent);
+        if (std::isfinite(value)) return value;
+      }
+      return std::nullopt;
+    default:
+      return std::nullopt;
+  }
+}
+
+/// A whole power of a factor, as products: "POT(R1)*R1" for 3.
+std::string wholePower(const std::string& base, int exponent) {
+  if (exponent == 1) return base;
+  if (exponent % 2 == 1) return fmt::format("{}*{}", wholePower(base, exponent - 1), base);
+  return fmt::format("POT({})", wholePower(base, exponent / 2));
+}
+
 }  // namespace
 
 std::string factorText(const std::string& expression) {
@@ -114,10 +144,6 @@ std::string SinumerikFormulas::formula(const Block& block, const Operand& operan
   if (operand.isLiteral()) return sinumerikText(operand.number);
   if (!operand.present()) return {};
   const Node& node = block.nodes[static_cast<std::size_t>(operand.node)];
-  const auto factor = [&](const Operand& side) {
-    if (side.isLiteral() && side.number < 0) return fmt::format("({})", formula(block, side));
-    return factorText(formula(block, side));
-  };
   switch (node.operation) {
     case Operation::Number:
       return sinumerikText(node.number);
@@ -126,25 +152,52 @@ std::string SinumerikFormulas::formula(const Block& block, const Operand& operan
     case Operation::Variable:
       return variable(block.variables[node.a]);
     case Operation::Negate:
-      return fmt::format("-{}", factor(node.left));
+      return fmt::format("-{}", factor(block, node.left));
     case Operation::Call:
       return call(block, node);
     case Operation::Power:
-      // Logarithms are of positive numbers only.
-      if (node.right.isLiteral() && node.right.number == 2) return fmt::format("POT({})", formula(block, node.left));
-      if (node.right.isLiteral() && node.right.number == 3)
-        return fmt::format("POT({0})*{1}", formula(block, node.left), factor(node.left));
-      return fmt::format("EXP({}*LN({}))", factor(node.right), formula(block, node.left));
+      return power(block, node);
     default:
       break;
   }
   const language::sinumerik::BinaryOperator* sign = language::sinumerik::operatorOf(node.operation);
   if (sign == nullptr) throw NotCarriedOver("this condition has no twin on a SINUMERIK");
+  if (sign->priority == language::sinumerik::Priority::Comparison && rounded_ && rounded_->decide(block, node)) {
+    // Numbers that are nearly the same are equal here, but 0 and another number never are.
+    return fmt::format("{}-{}{}0", formula(block, node.left), factor(block, node.right), sign->symbol);
+  }
   const char* blank = sign->symbol.front() >= 'A' ? " " : "";
   // Sums are computed from left to right anyway.
   const bool sum = node.operation == Operation::Add || node.operation == Operation::Subtract;
-  const std::string left = sum ? formula(block, node.left) : factor(node.left);
-  return fmt::format("{}{}{}{}{}", left, blank, sign->symbol, blank, factor(node.right));
+  const std::string left = sum ? formula(block, node.left) : factor(block, node.left);
+  return fmt::format("{}{}{}{}{}", left, blank, sign->symbol, blank, factor(block, node.right));
+}
+
+std::string SinumerikFormulas::factor(const Block& block, const Operand& side) {
+  if (side.isLiteral() && side.number < 0) return fmt::format("({})", formula(block, side));
+  return factorText(formula(block, side));
+}
+
+std::string SinumerikFormulas::power(const Block& block, const Node& node) {
+  constexpr double largestProduct = 16;
+  const auto base = constantOf(block, node.left), exponent = constantOf(block, node.right);
+  if (base && exponent && std::isfinite(std::pow(*base, *exponent))) {
+    const double value = std::pow(*base, *exponent);
+    return sinumerikText(value);
+  }
+  if (exponent && *exponent == 0) return "1";
+  if (exponent && *exponent == 0.5) return fmt::format("SQRT({})", formula(block, node.left));
+  if (exponent && *exponent == std::trunc(*exponent) && std::abs(*exponent) <= largestProduct) {
+    const std::string product = wholePower(factor(block, node.left), static_cast<int>(std::abs(*exponent)));
+    return *exponent > 0 ? product : fmt::format("1/({})", product);
+  }
+  // Logarithms are of positive numbers only.
+  doubts_.emplace_back(
+      "this power is computed by logarithms: a base of 0 or less stops the program, and a result that is a whole "
+      "number "
+      "may come out a little less",
+      "write the power as a product, or see to it that the base is positive and round the result");
+  return fmt::format("EXP({}*LN({}))", factor(block, node.right), formula(block, node.left));
 }
 
 std::string SinumerikFormulas::call(const Block& block, const Node& node) {
@@ -156,6 +209,9 @@ std::string SinumerikFormulas::call(const Block& block, const Node& node) {
     case Function::Atan:
       return fmt::format("ATAN2({},1)", argument(0));
     case Function::Log:
+      doubts_.emplace_back(
+          "LOG is computed by natural logarithms: a result that is a whole number may come out a little less",
+          "round the result where a whole number is meant");
       return fmt::format("(LN({})/LN(10))", argument(0));
     case Function::Fraction:
       return fmt::format("({0}-TRUNC({0}))", factorText(argument(0)));

@@ -4,8 +4,12 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
+#include "conversion/call.hpp"
 #include "conversion/quantity.hpp"
+#include "conversion/rounded_values.hpp"
 #include "language/block.hpp"
 
 /// Formulas and parameters of a HEIDENHAIN program as a SINUMERIK writes them.
@@ -28,6 +32,8 @@ public:
   void countInches() { inch_ = true; }
   /// Q and QR parameters are those of several programs: R parameters have them all.
   void shareParameters() { shared_ = true; }
+  /// Comparisons that roundings decide are written so that they decide as on a HEIDENHAIN control.
+  void heedRoundings(RoundedValues values) { rounded_ = std::move(values); }
   /// Throws NotCarriedOver for parameters that only the HEIDENHAIN control fills.
   std::string variable(const language::VariableRef& variable);
   /// All of these throw NotCarriedOver for functions without a twin.
@@ -39,12 +45,20 @@ public:
   const std::string& declare(const std::string& name) { return *declared_.insert(name).first; }
   const std::set<std::string>& declared() const { return declared_; }
 
+  /// Of what was written since the last call: what holds only under a condition.
+  std::vector<NotCarriedOver> takeDoubts() { return std::exchange(doubts_, {}); }
+
 private:
   std::string call(const language::Block& block, const language::Node& node);
+  std::string power(const language::Block& block, const language::Node& node);
+  /// A side of an operator that binds tightly.
+  std::string factor(const language::Block& block, const language::Operand& side);
 
   bool inch_ = false;
   bool shared_ = false;
   std::set<std::string> declared_;
+  std::optional<RoundedValues> rounded_;
+  std::vector<NotCarriedOver> doubts_;
 };
 
 /// The expression, in parentheses unless it binds as tightly as a factor.

@@ -118,6 +118,7 @@ Conversion ToKlartext::run() {
   surveyModes();
   surveyPlaces();
   if (millimetre_ != 1) formulas_.countInches();
+  rounded_.emplace(program_, job_);
   Diagnostics ignored;
   Block block;
   for (BlockPosition at = program_.begin(); program_.parse(at, block, ignored); at = block.next)
@@ -346,7 +347,7 @@ void ToKlartext::modal(const Block& block, const Modal& modal) {
   } else if (name == "TRAFOOF") {
     line("M129");
   } else if (name == "F" && words.size() == 1) {
-    line(fmt::format("L {} F{}", compensation_, formulas_.unsignedValue(quantity(block, words[0].value))));
+    line(fmt::format("L {}{}", compensation_, feedWord(block, words[0].value)));
   } else if (name == "S" && words.size() == 1 && addressName(words[0].address) == "S") {
     line(fmt::format("TOOL CALL S{}", formulas_.unsignedValue(quantity(block, words[0].value))));
   } else if (name == "D" && words.size() == 1) {

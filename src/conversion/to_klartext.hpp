@@ -13,6 +13,7 @@
 #include "conversion/flow_graph.hpp"
 #include "conversion/klartext_formulas.hpp"
 #include "conversion/output.hpp"
+#include "conversion/rounded_values.hpp"
 
 /// Writes a SINUMERIK program in Klartext, block by block.
 namespace probewright::conversion {
@@ -155,6 +156,13 @@ private:
   /// D1 and the like stand in the block.
   bool callsEdge(const language::Block& block);
   std::string coordinate(const language::Block& block, const language::Word& word);
+  /// A feed as Klartext counts it: in an INCH program in tenths of an inch a minute.
+  Quantity feed(const language::Block& block, const language::Operand& operand) {
+    return quantity(block, operand) * (millimetre_ == 1 ? 1 : 10);
+  }
+  std::string feedWord(const language::Block& block, const language::Operand& operand) {
+    return " F" + formulas_.unsignedValue(feed(block, operand));
+  }
 
   // to_klartext_cycles.cpp
   void cycle(const language::Block& block, const language::CallProgram& call);
@@ -231,6 +239,7 @@ private:
   std::optional<bool> withoutLength_ = false;  ///< D0 is in effect; empty: that depends on the way
   bool movesBeforeUnit_ = false;               ///< something moves before the block that selects inches
   FlowGraph graph_;
+  std::optional<RoundedValues> rounded_;
   std::map<std::uint64_t, std::string> labels_;  ///< by the block's offset, where jumps and repetitions lead to
   std::set<std::string> usedLabels_;
   std::map<std::string, int> nextNumberOfLabel_;                   ///< of a name that others have already

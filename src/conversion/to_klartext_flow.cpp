@@ -83,6 +83,12 @@ void ToKlartext::jumpWhen(When when, const Block& block, const Operand& conditio
     case Operation::LessEqual:
     case Operation::Greater:
     case Operation::GreaterEqual: {
+      if (rounded_ && rounded_->decide(block, *node)) {
+        out_.list(block,
+                  "roundings decide this comparison: a SINUMERIK takes numbers for equal that differ by 1e-12 of their "
+                  "size, a HEIDENHAIN control only those that are the same",
+                  "count in whole numbers, or compare with a number that lies between two values");
+      }
       const std::string left = comparable(block, node->left), right = comparable(block, node->right);
       switch (wanted ? operation : opposite(operation)) {
         case Operation::Equal:

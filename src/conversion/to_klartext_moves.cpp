@@ -96,7 +96,7 @@ void ToKlartext::move(const Block& block, const Move& move) {
     break;
   }
   std::string ending;
-  if (move.feed.present()) ending = fmt::format(" F{}", formulas_.unsignedValue(quantity(block, move.feed)));
+  if (move.feed.present()) ending = feedWord(block, move.feed);
   switch (motion_) {
     case MoveKind::Rapid:
     case MoveKind::Linear: {
@@ -132,8 +132,7 @@ void ToKlartext::move(const Block& block, const Move& move) {
       throw NotCarriedOver("this path function has no twin in Klartext", "write lines and arcs");
   }
   const Word* cornerFeed = find(words, "FRC");
-  const std::string slow =
-      cornerFeed == nullptr ? "" : fmt::format(" F{}", formulas_.unsignedValue(quantity(block, cornerFeed->value)));
+  const std::string slow = cornerFeed == nullptr ? "" : feedWord(block, cornerFeed->value);
   if (const Word* round = find(words, "RND")) {
     line(fmt::format("RND R{}{}", formulas_.unsignedValue(quantity(block, round->value)), slow));
   }
@@ -145,8 +144,8 @@ void ToKlartext::move(const Block& block, const Move& move) {
 void ToKlartext::arc(const Block& block, const Move& move, bool clockwise) {
   const auto words = std::span<const Word>(block.words).subspan(move.words.first, move.words.count);
   const std::string direction = clockwise ? " DR-" : " DR+";
-  std::string feed;
-  if (move.feed.present()) feed = fmt::format(" F{}", formulas_.unsignedValue(quantity(block, move.feed)));
+  std::string ending;
+  if (move.feed.present()) ending = feedWord(block, move.feed);
   const Word* radius = find(words, "CR");
   std::string centre = "CC";
   if (radius == nullptr) {
@@ -170,11 +169,11 @@ void ToKlartext::arc(const Block& block, const Move& move, bool clockwise) {
   }
   if (radius != nullptr) {
     line(fmt::format("CR{} R{}{} {}{}", ends, formulas_.value(quantity(block, radius->value)), direction, compensation_,
-                     feed));
+                     ending));
   } else if (!inPlane) {
-    line(fmt::format("CP IPA{}360{}{} {}{}", clockwise ? '-' : '+', ends, direction, compensation_, feed));
+    line(fmt::format("CP IPA{}360{}{} {}{}", clockwise ? '-' : '+', ends, direction, compensation_, ending));
   } else {
-    line(fmt::format("C{}{} {}{}", ends, direction, compensation_, feed));
+    line(fmt::format("C{}{} {}{}", ends, direction, compensation_, ending));
   }
 }
 

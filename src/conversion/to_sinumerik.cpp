@@ -122,6 +122,7 @@ Conversion ToSinumerik::run() {
       ballRadius_ = ballRadius_ * millimetre_;
       formulas_.countInches();
     }
+    formulas_.heedRoundings(RoundedValues(program_, job_));
     Diagnostics ignored;
     Block block;
     for (BlockPosition at = program_.begin(); program_.parse(at, block, ignored); at = block.next)
@@ -194,7 +195,10 @@ void ToSinumerik::write(const Block& block) {
     }
     for (std::size_t i = before; block.skippable && i < out_.size(); ++i)
       out_.at(i) = fmt::format("/{}", out_.at(i));
+    for (const NotCarriedOver& doubt : formulas_.takeDoubts())
+      out_.list(block, doubt.what(), doubt.advice());
   } catch (const NotCarriedOver& reason) {
+    formulas_.takeDoubts();
     out_.shorten(before);
     frame_ = frame;
     lastMove_ = std::min(lastMove_, before);
@@ -287,9 +291,9 @@ void ToSinumerik::toolCall(const Block& block, const ToolCall& call) {
     technology += fmt::format("S{}{}", speed.isNumber() ? "" : "=", sinumerikText(speed));
   }
   if (call.feed.present()) {
-    const Quantity feed = quantity(block, call.feed);
+    const Quantity path = feed(block, call.feed);
     technology +=
-        fmt::format("{}F{}{}", technology.empty() ? "" : " ", feed.isNumber() ? "" : "=", sinumerikText(feed));
+        fmt::format("{}F{}{}", technology.empty() ? "" : " ", path.isNumber() ? "" : "=", sinumerikText(path));
   }
   if (!technology.empty()) out_.line(technology);
   forgetPosition();

@@ -119,6 +119,13 @@ private:
   std::string centreWords() const;
   /// Loses words of a path block that a SINUMERIK does not have.
   void loseWords(const language::Block& block, const language::Move& move);
+  /// In inches a minute where a HEIDENHAIN control counts in tenths of that.
+  Quantity asFeed(const Quantity& programmed) const {
+    return programmed * (program_.unit() == language::klartext::Unit::Inch ? 0.1 : 1);
+  }
+  Quantity feed(const language::Block& block, const language::Operand& operand) {
+    return asFeed(quantity(block, operand));
+  }
   std::string feedWord(const language::Block& block, const language::Move& move);
   std::string cornerWord(const language::Block& block, const language::Move& move);
   void wherePolar(const language::Block& block, const language::Move& move, Place& target);

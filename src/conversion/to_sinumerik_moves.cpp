@@ -39,7 +39,7 @@ Quantity projected(const Quantity& radius, const char* function, const Quantity&
 
 std::string ToSinumerik::feedWord(const Block& block, const Move& move) {
   if (!move.feed.present()) return {};
-  return fmt::format(" {}", addressWord("F", quantity(block, move.feed)));
+  return fmt::format(" {}", addressWord("F", feed(block, move.feed)));
 }
 
 void ToSinumerik::loseWords(const Block& block, const Move& move) {
@@ -128,9 +128,9 @@ std::string ToSinumerik::centreWords() const {
 std::string ToSinumerik::cornerWord(const Block& block, const Move& move) {
   const Word* size = find(wordsOf(block, move.words), "R");
   const Quantity value = size == nullptr ? Quantity() : quantity(block, size->value);
-  const std::string feed =
-      move.feed.present() ? fmt::format(" FRC={}", sinumerikText(quantity(block, move.feed))) : std::string();
-  return fmt::format(" {}={}{}", move.kind == MoveKind::Rounding ? "RND" : "CHR", sinumerikText(value), feed);
+  const std::string cornerFeed =
+      move.feed.present() ? fmt::format(" FRC={}", sinumerikText(feed(block, move.feed))) : std::string();
+  return fmt::format(" {}={}{}", move.kind == MoveKind::Rounding ? "RND" : "CHR", sinumerikText(value), cornerFeed);
 }
 
 void ToSinumerik::moveOnMachine(const Block& block, const Move& move) {
@@ -195,9 +195,9 @@ void ToSinumerik::move(const Block& block, const Move& move) {
     default:
       throw NotCarriedOver("APPR and DEP have no twin on a SINUMERIK", "write the approach as straight lines and arcs");
   }
-  const std::string feed = feedWord(block, move);
+  const std::string ending = feedWord(block, move);
   if (words.empty()) {  // a change of compensation or feed alone
-    const std::string rest = compensation + (feed.empty() ? "" : feed.substr(1));
+    const std::string rest = compensation + (ending.empty() ? "" : ending.substr(1));
     if (!rest.empty()) out_.line(std::string(trimmed(rest, lineBlanks)));
     return;
   }
@@ -210,7 +210,7 @@ void ToSinumerik::move(const Block& block, const Move& move) {
     }
     if (!neither) besidePath_ = false;
   }
-  out_.line(compensation + path + words + feed);
+  out_.line(compensation + path + words + ending);
   lastMove_ = out_.size();
 }
 

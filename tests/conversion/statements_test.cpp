@@ -123,6 +123,77 @@ TEST(ConvertMotion, ComputesWithSignsAndPowers) {
   EXPECT_TRUE(drivesTheSame("Q1 = 4\nQ2 = 5 - SGN (Q1 - 4) + SGN (Q1 + 1)\nL X+Q2 Y+Q1 R0 FMAX\n"));
 }
 
+/// A SINUMERIK has squares, roots and logarithms: whole powers are products, also of numbers that have no logarithm.
+TEST(ConvertMotion, WritesPowersAsProducts) {
+  for (const char* base : {"3", "-2", "0.5"}) {
+    EXPECT_TRUE(drivesTheSame(fmt::format(
+        "Q1 = {}\nQ2 = Q1 ^ 4 + Q1 ^ -3\nQ3 = INT (Q1 ^ 5) + Q1 ^ 0 + Q1 ^ 1\nL X+Q2 Y+Q3 R0 FMAX\n", base)))
+        << base;
+  }
+  EXPECT_TRUE(
+      drivesTheSame("Q1 = 16\nQ2 = 0\nQ3 = INT (2 ^ 3 ^ 2) / 10\nQ4 = Q1 ^ 0.5 + Q2 ^ 3\nL X+Q3 Y+Q4 R0 FMAX\n"));
+  const conversion::Conversion there =
+      toSinumerik(klartextProgram("Q5 = 3\nQ6 = INT (2 ^ Q5)\nQ7 = INT LOG 1000\nQ8 = 2 ^ 3 ^ 2\n"));
+  ASSERT_EQ(there.notCarriedOver.size(), 2U) << there.text;
+  EXPECT_THAT(there.notCarriedOver[0].message, HasSubstr("this power is computed by logarithms"));
+  EXPECT_THAT(there.notCarriedOver[1].message, HasSubstr("LOG is computed by natural logarithms"));
+}
+
+/// A counter to which 0.1 is added ten times is less than 1 on a HEIDENHAIN control, and equal to 1 on a SINUMERIK.
+TEST(ConvertMotion, RoundsAsOftenAsTheOriginal) {
+  for (const char* comparison : {"12: IF +Q1 LT +Q2", "10: IF +Q1 NE +Q2", "12: IF +Q1 LT +Q3"}) {
+    for (const auto& [step, limit] :
+         {std::pair("0.1", "1"), std::pair("0.7", "7"), std::pair("0.25", "2"), std::pair("1", "6")}) {
+      // What never is equal ends after twenty steps.
+      EXPECT_TRUE(drivesTheSame(
+          fmt::format("Q1 = 0\nQ2 = {0}\nQ3 = {1} * 10\nL X+0 Y+0 R0 FMAX\nLBL 1\nQ1 = Q1 + {1}\nL IX+2 FMAX\n"
+                      "Q4 = Q4 + 1\nFN 11: IF +Q4 GT +20 GOTO LBL 2\nFN {2} GOTO LBL 1\nLBL 2\n",
+                      limit, step, comparison)))
+          << step << comparison;
+    }
+  }
+}
+
+/// The other way the comparison is named, where roundings may decide it and only there.
+TEST(ConvertMotion, NamesComparisonsThatRoundingsDecide) {
+  const auto named = [](const std::string& blocks) {
+    const conversion::Conversion there =
+        toKlartext("G17 G90 G710\nDEF REAL STEP=0.1\nDEF INT COUNT\n" + blocks + "M30\n");
+    return std::ranges::any_of(there.notCarriedOver, [](const Diagnostic& each) {
+      return each.message.find("roundings decide this comparison") != std::string::npos;
+    });
+  };
+  const std::string end = "\nENDWHILE\n";
+  EXPECT_TRUE(named("R1=0\nWHILE R1<1\nR1=R1+0.1" + end));
+  EXPECT_TRUE(named("R1=0\nWHILE R1<1\nR1=R1+STEP" + end));
+  EXPECT_TRUE(named("R1=0\nREPEAT\nR1=R1+1/3\nUNTIL R1>=2\n"));
+  EXPECT_TRUE(named("R3=R2\nR2=R1\nR1=R3+0.5\nIF R2==3\nR4=1\nENDIF\n"));
+  EXPECT_FALSE(named("R1=0\nWHILE R1<10\nR1=R1+2" + end));
+  EXPECT_FALSE(named("R1=5\nWHILE R1>0\nR1=R1-0.5" + end)) << "0 is told from every other number";
+  EXPECT_FALSE(named("COUNT=0\nWHILE COUNT<10\nCOUNT=TRUNC(COUNT*1.5)+1" + end));
+  EXPECT_FALSE(named("R1=0.1\nIF R1<0.3\nR2=1\nENDIF\n")) << "as it is written";
+  EXPECT_FALSE(named("IF ABS(_OVR[4]-_OVR[0])>0.02\nR2=1\nENDIF\n")) << "measured";
+  EXPECT_FALSE(named("R1=_OVR[4]*0.5\nIF R1>0.02\nR2=1\nENDIF\n")) << "measured";
+}
+
+/// F100 is 10 inches a minute in an INCH program; a SINUMERIK counts inches a minute under G700.
+TEST(ConvertMotion, KeepsFeedsOfInchPrograms) {
+  const std::string there = toSinumerik(
+                                "BEGIN PGM BENCH INCH\nTOOL CALL 1 Z S100 F50\nL X+1 Y+2 R0 F100\nRND R0.1 F20\n"
+                                "L X+3\nEND PGM BENCH INCH\n")
+                                .text;
+  EXPECT_THAT(there, HasSubstr("S100 F5\n"));
+  EXPECT_THAT(there, HasSubstr("X1 Y2 F10"));
+  EXPECT_THAT(there, HasSubstr("RND=0.1 FRC=2"));
+  const std::string back =
+      toKlartext("G17 G90 G700\nF5\nG1 X1 Y2 F10 RND=0.1 FRC=2\nX3\nR1=0.5\nG1 X4 F=R1\nM30\n").text;
+  EXPECT_THAT(back, HasSubstr("F50\n"));
+  EXPECT_THAT(back, HasSubstr("L X+1 Y+2 R0 F100\n"));
+  EXPECT_THAT(back, HasSubstr("RND R0.1 F20\n"));
+  EXPECT_THAT(back, HasSubstr("= 10 * Q1\n"));
+  EXPECT_THAT(toKlartext("G17 G90 G710\nG1 X1 F10\nM30\n").text, HasSubstr("L X+1 R0 F10\n"));
+}
+
 TEST(ConvertMotion, KeepsArraysByNumber) {
   EXPECT_TRUE(drivesTheSameFromSinumerik("AA[1]=AA[0]+AA[2]\nBB[1,0]=7\nG0 X=AA[1] Y=BB[1,0]+BB[0,1]+CC[3]\n",
                                          "DEF REAL AA[3]=SET(3,,5)\nDEF INT BB[2,2]=REP(2)\nDEF REAL CC[4]\n"));
