@@ -136,6 +136,15 @@ TEST(Convert, GivesListsOfValuesTheFormOfTheLanguage) {
   }
   EXPECT_THAT(toKlartext("%A G71 *\nN10 D15 P01 1 P02 +Q1 *\nN99 %A G71 *\n").text, HasSubstr("FN 15: PRINT +1/+Q1\n"));
   EXPECT_THAT(toKlartext("%A G71 *\nN10 D15 P01 20 *\nN99 %A G71 *\n").text, HasSubstr("FN 15: PRINT 20\n"));
+  // P02 is an address only where it stands by itself: names, paths and texts may hold these letters.
+  const std::pair<const char*, const char*> printed[] = {
+      {"1P02+Q1", "+1/+Q1"},  {"Q1P02-2.5P03+3", "+Q1/-2.5/+3"}, {"Q5/GRP02", "Q5/GRP02"},
+      {"LOG/P02", "LOG/P02"}, {"\"A P02 +1\"", "\"A P02 +1\""},  {"Q5 ; P02", "Q5"}};
+  for (const auto& [dinIso, klartext] : printed) {
+    const Conversion there = toKlartext("%A G71 *\nN10 D15 P01 " + std::string(dinIso) + " *\nN99 %A G71 *\n");
+    EXPECT_THAT(there.mistakes, ::testing::IsEmpty()) << dinIso;
+    EXPECT_THAT(there.text, HasSubstr("FN 15: PRINT " + std::string(klartext))) << dinIso;
+  }
   // The older form of the same, and what neither language has.
   EXPECT_THAT(toKlartext("%A G71 *\nN10 D19: PLC = +10 / +Q3 *\nN99 %A G71 *\n").text,
               HasSubstr("FN 19: PLC=+10/+Q3\n"));

@@ -112,14 +112,32 @@ bool BlockParser::jumpOf(int number) {
   return expectEnd();
 }
 
+/// True if P02 stands in the rest of the block as an address: not in quotation marks, nor as a part of a name or path.
+bool BlockParser::secondParameterFollows() {
+  const auto isOfName = [](char c) { return klartext::isWordByte(c) || c == '_' || c == '.' || c == '/' || c == '\\'; };
+  const std::size_t begin = lexer_.offset();
+  bool found = false;
+  while (!lexer_.atEnd()) {
+    if (lexer_.quoted()) continue;
+    found = parameterAddress(2);
+    if (found) break;
+    // A name takes its digits along, as in Q1; what follows them is something else.
+    const bool isName = isOfName(lexer_.here());
+    lexer_.advance();
+    while (isName && isOfName(lexer_.here()))
+      lexer_.advance();
+    while (isName && isDigit(lexer_.here()))
+      lexer_.advance();
+  }
+  lexer_.seek(begin);
+  return found;
+}
+
 /// D15 P01 20; D15 P01 1 P02 +Q1: what stands between the slashes of FN 15: PRINT 1/+Q1.
 bool BlockParser::printing() {
   const bool byAddresses = parameterAddress(1);
   lexer_.acceptKeyword("PRINT");
-  const std::size_t begin = lexer_.offset();
-  const std::string_view rest = lexer_.restOfBlock();
-  lexer_.seek(begin);
-  if (!byAddresses || rest.find("P02") == std::string_view::npos) return textCommand(CommandKind::Fn15);
+  if (!byAddresses || !secondParameterFollows()) return textCommand(CommandKind::Fn15);
   std::string text;
   for (int i = 1; i == 1 || !lexer_.atEnd(); ++i) {
     const std::optional<Operand> each = i == 1 ? value("P01") : parameterValue(i);

@@ -85,6 +85,7 @@ private:
   bool jumpOf(int number);
   bool systemRead();
   bool printing();
+  bool secondParameterFollows();
   bool valuesForPlc(int number);
   std::optional<Operand> parameterValue(int number);
   bool parameterAddress(int number);
