@@ -142,23 +142,23 @@ void StatementNotes::systemDatum(const Block& block, const Command& command) {
                  : canWrite(whole(*id), whole(*number), place, kind_);
   };
   const std::string datum = fmt::format("ID{} NR{}", whole(*id), whole(*number));
+  const auto stops = [&](const std::string& what, std::string_view condition, std::string advice) {
+    note(Severity::Warning,
+         fmt::format("FN {} {}: the run stops at this block{}", reads ? "18 cannot read" : "17 cannot write", what,
+                     condition),
+         std::move(advice));
+  };
   if (!known(std::nullopt)) {
-    note(Severity::Warning,
-         fmt::format("FN {} cannot {} {} here: the run stops at this block", reads ? 18 : 17, reads ? "read" : "write",
-                     datum),
-         "use another system datum, or set the parameter to a fixed value");
+    stops(datum + " here", "", "use another system datum, or set the parameter to a fixed value");
   } else if (index && !known(whole(*index))) {
-    note(Severity::Warning,
-         fmt::format("FN {} cannot {} {} IDX{} here: the run stops at this block", reads ? 18 : 17,
-                     reads ? "read" : "write", datum, whole(*index)),
-         "give the IDX of an axis, row or parameter that the datum has");
+    stops(fmt::format("{} IDX{} here", datum, whole(*index)), "",
+          "give the IDX of an axis, row or parameter that the datum has");
   } else if (!reads && (whole(*id) == 50 || whole(*id) == 950) && whole(*number) == 36 && value &&
              !isToolType(*value)) {
     // The newer control has the column always.
-    note(Severity::Warning,
-         fmt::format("FN 17 cannot write {} = {}: the run stops at this block{}", datum, formatShortest(*value),
-                     kind_ == control::ControlKind::TNC640 ? "" : " if TOOL.T has a column TYP"),
-         "write 0, a mill, or 21, a touch probe; enter other types in the column TYP of TOOL.T");
+    stops(fmt::format("{} = {}", datum, formatShortest(*value)),
+          kind_ == control::ControlKind::TNC640 ? "" : " if TOOL.T has a column TYP",
+          "write 0, a mill, or 21, a touch probe; enter other types in the column TYP of TOOL.T");
   }
 }
 
