@@ -85,6 +85,36 @@ TEST(RefusedData, WrittenIsNamedByTheCheck) {
   }
 }
 
+/// All tables as their files.
+std::string tablesOf(World& world) {
+  auto& tables = world.control->tables;
+  return tables.tools.table().bytes() + tables.presets.table().bytes() + tables.datums.at("D.D").table().bytes();
+}
+
+/// A row that is missing, a column that is missing, a value for which the column has no room.
+TEST(RefusedData, WritesNothingAtAll) {
+  int refused = 0;
+  for (const ControlKind kind : {ControlKind::TNC640, ControlKind::iTNC530}) {
+    World untouched = fullWorld(kind);
+    ASSERT_TRUE(untouched.run("TOOL CALL 1 Z\n").diagnostics.empty());
+    const std::string before = tablesOf(untouched);
+    for (const int id : {50, 500, 503, 507, 508}) {
+      for (const int number : {1, 7, 36, 87}) {
+        for (const int index : {0, 1, 3, 4, 5, 6, 9}) {
+          for (const char* value : {"+1", "-999999999", "+999999999.999999"}) {
+            const std::string block = fmt::format("FN 17: SYSWRITE ID{} NR{} IDX{} = {}", id, number, index, value);
+            World world = fullWorld(kind);
+            if (world.run("TOOL CALL 1 Z\n" + block + "\n").diagnostics.empty()) continue;
+            ++refused;
+            EXPECT_EQ(tablesOf(world), before) << block << " " << control::name(kind);
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(refused, 300);
+}
+
 /// What only the run knows is not named.
 TEST(RefusedData, ComputedIsLeftToTheRun) {
   for (const char* block : {"FN 17: SYSWRITE ID50 NR36 IDX1 = Q1", "FN 18: SYSREAD Q1 = ID270 NR1 IDXQ2",

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "base/number_text.hpp"
 #include "control/alarm.hpp"
@@ -235,27 +236,30 @@ void Control::requireWritablePreset(int row) const {
 }
 
 void Control::writePreset(int row, const PresetChange& change) {
-  TypedTable& table = tables.presets;
+  requireWritablePreset(row);
   const std::string key = std::to_string(row);
   ActivePreset preset = presetRow(row).value_or(ActivePreset{});
   preset.row = row;
-  if (!table.hasRow(key)) {
-    const Result<void> added = table.ensureRow(key);
-    if (!added) throw Alarm("Table write error", added.error().message, added.error().advice);
-  }
-  requireWritablePreset(row);
+  // What is refused has written nothing, not even the row.
+  TypedTable changed = tables.presets;
+  check(changed.ensureRow(key));
+  std::vector<std::string> columns;
+  const auto set = [&](NumberColumn column, double value) {
+    check(changed.setNumber(key, column, value));
+    columns.emplace_back(column.name());
+  };
   const auto toolAxis = static_cast<std::size_t>(coordinates.plane.tool);
   for (std::size_t i = 0; i < 3; ++i) {
     if (change.origin[i]) {
       preset.origin[static_cast<Eigen::Index>(i)] = *change.origin[i];
-      writeNumber(table, key, linearNames[i], *change.origin[i]);
+      set(linearNames[i], *change.origin[i]);
     }
     if (change.spaceAngles[i]) {
       preset.spaceAngles[static_cast<Eigen::Index>(i)] = *change.spaceAngles[i];
-      if (table.hasColumn(spaceAngleNames[i])) {
-        writeNumber(table, key, spaceAngleNames[i], *change.spaceAngles[i]);
-      } else if (i == toolAxis && table.hasColumn("ROT")) {
-        writeNumber(table, key, "ROT", *change.spaceAngles[i]);
+      if (changed.hasColumn(spaceAngleNames[i])) {
+        set(spaceAngleNames[i], *change.spaceAngles[i]);
+      } else if (i == toolAxis && changed.hasColumn("ROT")) {
+        set("ROT", *change.spaceAngles[i]);
       } else {
         throw Alarm("Table write error", fmt::format("The preset table has no column {}", spaceAngleNames[i].name()));
       }
@@ -268,11 +272,14 @@ void Control::writePreset(int row, const PresetChange& change) {
     const std::string offsetName = description.axes[i].name + "_OFFS";
     const NumberColumn position = NumberColumn::named(description.axes[i].name);
     const NumberColumn offset = NumberColumn::named(offsetName);
-    const bool hasOffset = table.hasColumn(offset);
+    const bool hasOffset = changed.hasColumn(offset);
     double written = *change.rotaryOffset[i];
-    if (hasOffset && table.hasColumn(position)) written -= table.numberOr(key, position, 0);
-    writeNumber(table, key, hasOffset ? offset : position, written);
+    if (hasOffset && changed.hasColumn(position)) written -= changed.numberOr(key, position, 0);
+    set(hasOffset ? offset : position, written);
   }
+  std::swap(tables.presets, changed);
+  for (const std::string& column : columns)
+    note(tables.presets, key, Column::named(column), changed.text(key, Column::named(column)));
   exactPresets_[row] = preset;
   if (row == coordinates.preset.row) {
     coordinates.preset = preset;

@@ -126,7 +126,7 @@ public:
   /// Activates a row of the preset table; resets nothing else. Throws Alarm if there is no such row.
   void activatePreset(int row);
   /// Writes values into a row of the preset table (created if absent) and, if it is the active one, into effect.
-  /// `origin` by X, Y, Z; absent values stay.
+  /// `origin` by X, Y, Z; absent values stay. Throws Alarm, with nothing written, if the table refuses it.
   struct PresetChange {
     std::array<std::optional<double>, 3> origin;       ///< machine coordinates, mm
     std::array<std::optional<double>, 3> spaceAngles;  ///< SPA, SPB, SPC

@@ -15,6 +15,16 @@ namespace {
 
 constexpr double millimetresPerInch = 25.4;
 
+/// Adds the row and lets `set` write into it; adds nothing if that fails.
+template <class Set>
+Result<void> inNewRow(TypedTable& table, std::string_view row, const Set& set) {
+  TypedTable grown = table;
+  if (auto added = grown.ensureRow(row); !added) return added;
+  if (auto done = set(grown); !done) return done;
+  table = std::move(grown);
+  return {};
+}
+
 }  // namespace
 
 Result<TypedTable> TypedTable::parse(std::string_view bytes, std::string file, std::span<const ColumnSpec> columns,
@@ -101,7 +111,7 @@ std::string TypedTable::text(std::string_view row, Column column) const {
 }
 
 Result<void> TypedTable::setNumber(std::string_view row, NumberColumn column, double value) {
-  if (auto added = ensureRow(row); !added) return added;
+  if (!hasRow(row)) return inNewRow(*this, row, [&](TypedTable& grown) { return grown.setNumber(row, column, value); });
   const ColumnSpec* spec = find(column.name());
   const std::string_view name = nameInFile(column.name());
   const double written = value / millimetresPerUnit(spec);
@@ -120,7 +130,7 @@ Result<void> TypedTable::setNumber(std::string_view row, NumberColumn column, do
 }
 
 Result<void> TypedTable::setText(std::string_view row, Column column, std::string_view value) {
-  if (auto added = ensureRow(row); !added) return added;
+  if (!hasRow(row)) return inNewRow(*this, row, [&](TypedTable& grown) { return grown.setText(row, column, value); });
   return table_.setCell(row, nameInFile(column.name()), value);
 }
 
