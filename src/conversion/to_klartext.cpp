@@ -35,7 +35,8 @@ ToKlartext::ToKlartext(language::sinumerik::SinumerikProgram& program, const Glo
       out_(program.file()),
       formulas_(globalData),
       graph_(program),
-      probe_(probe) {
+      probe_(probe),
+      lackingRows_(program, graph_, job_, selectedOffset) {
   if (job_.shares) formulas_.keepLocal();
 }
 
@@ -292,6 +293,7 @@ void ToKlartext::modal(const Block& block, const Modal& modal) {
     if (*settable == 0) throw NotCarriedOver("G500 cancels all settable zero offsets; a preset is always in effect");
     const int row = *settable == 99 ? 0 : *settable;
     activeRow_ = *settable;
+    selectedRows_.insert(*settable);
     forgetPosition();
     if (row == 0 && std::exchange(copiesToRow0_, false)) return;
     // On the iTNC 530 row 0 is the preset set by hand; the active one stays selected.

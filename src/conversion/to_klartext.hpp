@@ -12,6 +12,7 @@
 #include "conversion/conversion.hpp"
 #include "conversion/flow_graph.hpp"
 #include "conversion/klartext_formulas.hpp"
+#include "conversion/lacking_rows.hpp"
 #include "conversion/output.hpp"
 #include "conversion/rounded_values.hpp"
 
@@ -59,6 +60,7 @@ private:
     std::optional<std::array<double, 3>> shift = std::array<double, 3>{};  ///< X, Y, Z
     std::optional<double> rotation = 0;
     std::optional<int> row;
+    std::set<int> selected;  ///< zero offsets that were selected: the preset table has their rows
     std::optional<MeasuringTask::Log> log = MeasuringTask::Log::None;
     std::optional<bool> withoutLength = false;  ///< D0 is in effect
     bool operator==(const Modes&) const = default;
@@ -90,6 +92,13 @@ private:
 
   // to_klartext_frames.cpp
   void transform(const language::Block& block, const language::Transform& transform);
+  /// The settable zero offset that the block selects.
+  static std::optional<int> selectedOffset(const language::Block& block);
+  /// What a HEIDENHAIN control does of a row that it lacks where the SINUMERIK writes into the zero offset.
+  enum class Lacking { CopiesPresetInEffect, Stops };
+  /// Lists, once a row, that the block writes a zero offset whose row the preset table may lack and which a block then
+  /// selects.
+  void listLackingRow(const language::Block& block, const Quantity& row, Lacking lacking);
   void writeShift(const std::array<Quantity, 3>& shift);
   void writeRotation(const Quantity& angle);
   Quantity frozen(const Quantity& quantity, const std::string& name);
@@ -281,6 +290,8 @@ private:
   std::string compensation_ = "R0";
   std::string pendingTool_, tool_;  ///< to be changed to, in the spindle
   std::optional<int> activeRow_;
+  std::set<int> selectedRows_;  ///< on every way to this block
+  LackingRows lackingRows_;
   bool hasRowZero_ = false;    ///< the last zero offset is a copy of another
   bool rowZeroIsDue_ = false;  ///< so it was, but no cycle has done it yet
   bool copiesToRow0_ = false;  ///< the active zero offset was copied to the last one

@@ -285,6 +285,8 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
     line(fmt::format("FN 18: SYSREAD {} = ID530 NR1", row));
     task.row = Quantity::of(row);
   }
+  if (task.correction != Correction::None && !task.active)
+    listLackingRow(block, task.row, Lacking::CopiesPresetInEffect);
   if (task.row == 99) {
     if (task.correction != Correction::None && !rowZeroIsDue_ && activeRow_ != 99) {
       throw NotCarriedOver("G599 is row 0 of the preset table, which a touch probe cycle selects when it corrects it",

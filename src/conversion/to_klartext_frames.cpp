@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "conversion/sinumerik_formulas.hpp"
 #include "conversion/to_klartext.hpp"
 
 /// Frames of SINUMERIK programs in Klartext, and what they do to the coordinates of touch probe cycles.
@@ -22,6 +23,34 @@ void turn(Place& place, double degrees) {
 }
 
 }  // namespace
+
+std::optional<int> ToKlartext::selectedOffset(const Block& block) {
+  std::optional<int> offset;
+  for (const Instruction& instruction : block.instructions) {
+    const auto* modal = std::get_if<Modal>(&instruction);
+    if (const auto selected = modal == nullptr ? std::nullopt : settableOf(block.at(modal->name))) offset = selected;
+  }
+  return offset;
+}
+
+void ToKlartext::listLackingRow(const Block& block, const Quantity& row, Lacking lacking) {
+  constexpr int last = 98;  // the one after it is row 0, which is always there
+  for (const auto& [number, where] : lackingRows_.writtenBy(block, row, selectedRows_, last)) {
+    const std::string code = settableCode(number);
+    const std::string does = lacking == Lacking::Stops
+                                 ? fmt::format("stops here, the SINUMERIK writes {}", code)
+                                 : fmt::format(
+                                       "takes what nobody sets there from the preset in effect, the SINUMERIK "
+                                       "keeps what {} holds",
+                                       code);
+    out_.list(block,
+              fmt::format("PRESET.PR may lack row {}, which this block writes and {} selects: the HEIDENHAIN control "
+                          "then {}",
+                          number, where, does),
+              fmt::format("make sure that PRESET.PR has row {}, with what {} is to hold, before the program runs",
+                          number, code));
+  }
+}
 
 void ToKlartext::writeShift(const std::array<Quantity, 3>& shift) {
   std::vector<std::string> parts = {"CYCL DEF 7.0 DATUM SHIFT"};

@@ -94,7 +94,10 @@ void ToKlartext::follow(const Block& block, Modes& modes) const {
       if (name == "G40" || name == "G41" || name == "G42") {
         modes.compensation = name == "G40" ? "R0" : name == "G41" ? "RL" : "RR";
       }
-      if (const auto row = settableOf(name)) modes.row = *row;
+      if (const auto row = settableOf(name)) {
+        modes.row = *row;
+        modes.selected.insert(*row);
+      }
       if (name == "D" && modal->words.count == 1) {
         const auto edge = literalOf(block, block.words[modal->words.first].value);
         modes.withoutLength = edge ? std::optional(*edge == 0) : std::nullopt;
@@ -133,6 +136,7 @@ bool ToKlartext::agree(Modes& with, const Modes& other) {
   meet(with.shift, other.shift);
   meet(with.rotation, other.rotation);
   meet(with.row, other.row);
+  std::erase_if(with.selected, [&](int row) { return !other.selected.contains(row); });
   meet(with.log, other.log);
   meet(with.withoutLength, other.withoutLength);
   return !(with == before);
@@ -313,6 +317,7 @@ void ToKlartext::adopt(const Block& block) {
   take(compensation_, compensationDoubtful_, modes.compensation);
   take(log_, logDoubtful_, modes.log);
   activeRow_ = modes.row;
+  selectedRows_ = modes.selected;
   withoutLength_ = modes.withoutLength;
   frame_ = {.known = modes.shift.has_value(),
             .shift = {},

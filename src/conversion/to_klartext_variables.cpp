@@ -68,6 +68,7 @@ void ToKlartext::assignFrameComponent(const Block& block, const Assign& assign) 
       throw NotCarriedOver("cycle 404 of the iTNC530 turns the active preset only",
                            "select the zero offset before this block");
     }
+    if (!active) listLackingRow(block, number, Lacking::CopiesPresetInEffect);
     unturned_ = value == 0;
     if (row == 0) rowZeroIsDue_ = false;
     const std::string angle = formulas_.value(value), rowText = formulas_.value(row);
@@ -86,6 +87,7 @@ void ToKlartext::assignFrameComponent(const Block& block, const Assign& assign) 
   if (control_ == control::ControlKind::iTNC530) {
     throw NotCarriedOver("the iTNC530 has no PRESET CORR", "let the measuring cycle before it correct the offset");
   }
+  if (!active) listLackingRow(block, number, Lacking::Stops);
   // A preset moves by an amount, and only while it is in effect.
   const Quantity present = active ? quantity(block, variable.index[0]) : row;
   const Quantity shift = value - Quantity::of(formulas_.presetDatum(present, static_cast<int>(place) + 1));

@@ -18,7 +18,12 @@ using namespace language;
 using klartext::FramePart;
 
 ToSinumerik::ToSinumerik(klartext::HeidenhainProgram& program, const Job* job, const TouchProbe& probe)
-    : program_(program), job_(job == nullptr ? Job() : *job), out_(program.file()), graph_(program), probe_(probe) {
+    : program_(program),
+      job_(job == nullptr ? Job() : *job),
+      out_(program.file()),
+      graph_(program),
+      probe_(probe),
+      lackingRows_(program, graph_, job_, selectedRow) {
   if (job_.shares) formulas_.shareParameters();
 }
 

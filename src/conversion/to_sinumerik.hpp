@@ -12,6 +12,7 @@
 #include "conversion/call.hpp"
 #include "conversion/conversion.hpp"
 #include "conversion/flow_graph.hpp"
+#include "conversion/lacking_rows.hpp"
 #include "conversion/output.hpp"
 #include "conversion/sinumerik_formulas.hpp"
 #include "conversion/sinumerik_tasks.hpp"
@@ -160,12 +161,11 @@ private:
   /// Lists that the cycle corrects a row after another one has set row 0 (Q305 = 0): a TNC 640 goes on in row 0, an
   /// iTNC 530 in the row that was in effect.
   void listRowAfterZero(const language::Block& block, const Quantity& row);
-  // lacking_rows.cpp
+  /// The row that cycle 247 selects in the block, if it stands there as a number.
+  static std::optional<int> selectedRow(const language::Block& block);
   /// Lists, once a row, that the cycle writes a row which the preset table may lack and a later block selects: a
   /// control adds it as a copy of the preset in effect, a settable zero offset keeps its own values.
   void listLackingRow(const language::Block& block, const Quantity& row);
-  /// The rows that a block selects by number after this one, each with the place of such a block.
-  std::map<int, std::string> rowsSelectedAfter(const language::Block& block);
   /// Row 0, the preset that a cycle sets at once; here the last settable zero offset, a copy of the active one.
   void takeRowZero();
   /// What row 0 stands for in a call.
@@ -244,9 +244,8 @@ private:
   Frame frame_;
   bool axisDoubtful_ = false;
   std::optional<int> activeRow_;
-  std::set<int> selectedRows_;                  ///< on every way to this block
-  std::set<int> lackingRows_;                   ///< those that are listed
-  std::vector<std::vector<std::size_t>> next_;  ///< of rowsSelectedAfter: which blocks may follow each
+  std::set<int> selectedRows_;  ///< on every way to this block
+  LackingRows lackingRows_;
   bool ended_ = false;
   bool listedReach_ = false;
   std::vector<std::string> blank_;  ///< X, Y, Z of BLK FORM 0.1

@@ -51,6 +51,28 @@ void ToSinumerik::writeFrame(const Frame& frame) {
   if (!(*frame.rotation == 0)) out_.line(fmt::format("AROT {}", addressWord(axis(2), *frame.rotation)));
 }
 
+std::optional<int> ToSinumerik::selectedRow(const Block& block) {
+  for (const Instruction& instruction : block.instructions) {
+    const auto* change = std::get_if<Transform>(&instruction);
+    if (change == nullptr || klartext::kindOf(block, *change) != TransformKind::PresetByCycle) continue;
+    if (change->words.count == 0) continue;
+    if (const auto row = literalOf(block, block.words[change->words.first].value)) return static_cast<int>(*row);
+  }
+  return std::nullopt;
+}
+
+void ToSinumerik::listLackingRow(const Block& block, const Quantity& row) {
+  for (const auto& [number, where] : lackingRows_.writtenBy(block, row, selectedRows_, 99)) {
+    out_.list(block,
+              fmt::format("PRESET.PR may lack row {0}, which this cycle writes and {1} selects: the HEIDENHAIN control "
+                          "then takes what no cycle sets there from the preset in effect, the SINUMERIK keeps what {2} "
+                          "holds",
+                          number, where, settableCode(number)),
+              fmt::format("make sure that {} holds what row {} is to hold before the program runs",
+                          settableCode(number), number));
+  }
+}
+
 void ToSinumerik::transform(const Block& block, const Transform& transform) {
   const TransformKind kind = klartext::kindOf(block, transform);
   const auto words = std::span<const Word>(block.words).subspan(transform.words.first, transform.words.count);

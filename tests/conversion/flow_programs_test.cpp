@@ -142,7 +142,7 @@ TEST(ConvertFlow, TurnsOffsetsUnderAFrameOfTheProgram) {
   for (const char* frame : {"TRANS X5 Y-2\n", "R1=4\nTRANS X=R1\n", "TRANS X5\nAROT Z20\n"}) {
     for (const char* turn : {"$P_UIFR[1,Z,RT]=3\nG54\n", "$P_UIFR[2,Z,RT]=3\n", "$P_UIFR[2,Z,RT]=3\nG55\n"}) {
       const std::string program =
-          fmt::format("G17 G90 G710\nT1 M6 D1\nG54\nG0 Z100\n{}{}G0 X50 Y0\nM30\n", frame, turn);
+          fmt::format("G17 G90 G710\nT1 M6 D1\nG55\nG54\nG0 Z100\n{}{}G0 X50 Y0\nM30\n", frame, turn);
       const Twin original = runSinumerik(program, part);
       const Twin there = runConverted(original, part);
       ASSERT_TRUE(ranWhole(original));
