@@ -139,6 +139,13 @@ void ToKlartext::toolMeasurement(const Block& block, const Call& call) {
   for (const int index : wanted)
     if (index != actual && index != difference)
       out_.lose(block, fmt::format("_OVR[{}]: the touch probe cycle has no such result", index));
+  if (call.digit("S_MVAR", 2) == 1) {
+    out_.list(block,
+              "S_MVAR: the tool touch probe counts in workpiece coordinates here, a HEIDENHAIN control knows it in "
+              "machine coordinates: under another zero offset than it was calibrated with the SINUMERIK corrects "
+              "otherwise, or stops (61341)",
+              "measure in machine coordinates, with 0 in the tens of S_MVAR");
+  }
   if (task == 1 && !length)
     out_.lose(block, "S_MVAR: a radius is measured with a rotating tool, unless CUT is 0 in TOOL.T");
   if (task == 1 && length)

@@ -259,6 +259,21 @@ TEST(ToolConversion, ToKlartextNamesWhatTouchProbeCyclesLack) {
   EXPECT_NE(text("CYCLE971(2,0,1,3,0,0,15,15,,,,3)").find("S_NMSP: one touch"), std::string::npos);
 }
 
+/// In workpiece coordinates the contact of the probe lies elsewhere under another zero offset; only the SINUMERIK knows.
+TEST(ToolConversion, ToKlartextNamesToolsMeasuredInWorkpieceCoordinates) {
+  const auto listed = [](const std::string& variant) {
+    std::string all;
+    const auto conversion = toKlartext("G17 G90\nT12\nM6 D1\nCYCLE971(" + variant + ",0,1,3,0,0,15,15)\nM30\n");
+    for (const Diagnostic& each : conversion.notCarriedOver)
+      all += each.message;
+    return all;
+  };
+  for (const char* variant : {"11", "12", "112"})
+    EXPECT_NE(listed(variant).find("counts in workpiece coordinates"), std::string::npos) << variant;
+  for (const char* variant : {"1", "2", "102"})
+    EXPECT_EQ(listed(variant).find("coordinates"), std::string::npos) << variant;
+}
+
 TEST(ToolConversion, OldFormsBecomeNewOnesInDinIso) {
   const auto program = session::programOf("A.H",
                                           "0 BEGIN PGM A MM\nTOOL CALL 12 Z\n" + toolCycle(482, 1, true, true) +
