@@ -14,6 +14,7 @@ std::string limitsText(const Row& row) {
   const auto limit = [&](const std::optional<double>& value) {
     return value ? formatFixed(*value, 6) : std::string("none");
   };
+  if (!row.lowerLimit && !row.upperLimit) return fmt::format("{} = {}", row.result, formatShortest(row.actual));
   return fmt::format("{} = {} {}, limits {} and {}", row.result, formatFixed(row.actual, 6), row.unit,
                      limit(row.lowerLimit), limit(row.upperLimit));
 }

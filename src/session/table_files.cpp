@@ -17,8 +17,9 @@ std::vector<fs::path> tableFiles(const fs::path& folder, Diagnostics& diagnostic
   if (folder.empty()) return files;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
-    static constexpr std::array<std::string_view, 12> endings = {".T",    ".TP",  ".PR",  ".TRN", ".TAB", ".D",
-                                                                 ".3DTC", ".INI", ".TOA", ".UFR", ".GUD", ".DEF"};
+    static constexpr std::array<std::string_view, 15> endings = {".T",   ".TP",   ".PR",  ".TRN", ".TAB",
+                                                                 ".D",   ".3DTC", ".KD",  ".KCO", ".VSC",
+                                                                 ".INI", ".TOA",  ".UFR", ".GUD", ".DEF"};
     const fs::path& path = entry.path();
     if (entry.is_regular_file(error)) {
       files.push_back(path);

@@ -13,7 +13,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-constexpr double noError = 1, error = 2, notConfigured = 3;
+constexpr double noError = 1, error = 2, notConfigured = 3, cameraFault = 10;
 
 /// Teaches ten reference images of the bench and keeps them for the runs that follow.
 class Taught {
@@ -173,6 +173,47 @@ TEST(Cycle601, SaysThreeWhileAreasOrReferencesAreMissing) {
   bench.answers({{"601 OS", "REFERENCE IMAGE; CONFIGURE; DRAW AREA 5 5 100 80; SAVE AND BACK; BACK"}});
   EXPECT_EQ(bench.run(local(1, 2)).q(601), notConfigured) << "one of two references";
   EXPECT_EQ(bench.run(local(1, 1)).q(601), noError);
+}
+
+/// An error that the program does not stop at is one all the same; what is not monitored is neither good nor bad.
+TEST(Cycle601, JudgesTheWorkingSpace) {
+  using control::Verdict;
+  const auto ends = [](const Ran& ran, double state, Verdict verdict, records::ExitState exit) {
+    EXPECT_TRUE(ran.finished()) << ran.why();
+    EXPECT_EQ(ran.q(601), state);
+    const control::CycleRecord& cycle = ran.outcome.journal.cycles.back();
+    EXPECT_EQ(cycle.verdict, verdict);
+    EXPECT_EQ(cycle.results.back().verdict, verdict);
+    EXPECT_EQ(ran.outcome.info.exit, exit);
+  };
+  CameraBench bench;
+  ends(bench.run(local(0, 10)), notConfigured, Verdict::None, records::ExitState::Good);
+  const Taught taught(bench);
+  ends(bench.run(local(0, 10)), noError, Verdict::Good, records::ExitState::Good);
+  CameraBench failing = bench;
+  failing.camera().fault = camera::CameraFault::NoSignal;
+  ends(failing.run(local(0, 10)), cameraFault, Verdict::None, records::ExitState::Good);
+  bench.put("forgotten clamp", SolidRole::Fixture, {box({40, 16, 12})}, {-20, 20, plateTop});
+  ends(bench.run(local(0, 10)), error, Verdict::Rework, records::ExitState::OutOfTolerance);
+}
+
+/// Whoever expects reference images must see that there are none.
+TEST(Cycle601, SaysThatAMonitoringPointIsNew) {
+  const auto saysSo = [](const Ran& ran, const std::string& cycle = "601") {
+    return std::ranges::any_of(ran.outcome.journal.events, [&](const control::EventRecord& event) {
+      return event.kind == control::EventKind::Warning &&
+             event.text == cycle + " OS: there is no monitoring file BENCH.OS.VSC: this image begins a new one";
+    });
+  };
+  CameraBench bench;
+  EXPECT_TRUE(saysSo(bench.run(local(0, 10))));
+  EXPECT_TRUE(saysSo(bench.run(global(0, 10)), "600"));
+  const Taught taught(bench);
+  EXPECT_FALSE(saysSo(bench.run(local(0, 10))));
+  std::filesystem::remove(taught.folder().path() / "BENCH.OS.VSC");
+  EXPECT_TRUE(saysSo(bench.run(local(0, 10))));
+  std::filesystem::create_directory(taught.folder().path() / "BENCH.OS.VSC");
+  EXPECT_THAT(bench.run(local(0, 10)).why(), HasSubstr("has the name of a table, but it is a folder"));
 }
 
 TEST(Cycle601, TellsTheOperatorWhatIsMissing) {

@@ -98,7 +98,7 @@ struct CameraMonitoring {
   machine::Camera* camera = nullptr;
   std::vector<MonitoringPoint> points;
 
-  /// The point of that name; a new one if there is none.
+  /// The point of that name; a new one, after the others, if there is none.
   MonitoringPoint& point(const std::string& programPath, std::string_view name);
 };
 

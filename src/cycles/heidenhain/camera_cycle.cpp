@@ -10,6 +10,7 @@
 namespace probewright::cycles::heidenhain {
 
 using control::Alarm;
+using control::Verdict;
 using control::heidenhain::CameraMonitoring;
 using control::heidenhain::CameraScreen;
 using control::heidenhain::ImageKind;
@@ -41,11 +42,16 @@ public:
         references_(context.option(617)),
         stops_(context.option(309) == 1) {}
 
-  void run(CoverAfterwards cover) {
+  /// `isNew`: there was no monitoring file of this point.
+  void run(CoverAfterwards cover, bool isNew) {
     const std::string question = fmt::format("{} {}", context_.record().name, point_.name);
     std::string text;
     if (const auto picture = take()) {
       store(*picture);
+      if (isNew && fault_.empty()) {
+        context_.warn(fmt::format("{}: there is no monitoring file {}: this image begins a new one", question,
+                                  monitoringFileName(point_)));
+      }
       CameraScreen screen(port(), point_, references_);
       const bool before = fault_.empty() && !point_.configured(references_);
       if (fault_.empty() && stops_ && (before || state() == error)) {
@@ -61,7 +67,7 @@ public:
       text = fmt::format("{}: camera fault: {}", question, fault_);
       if (!stops_) context_.warn(text);
     }
-    context_.result(601, fault_.empty() ? state() : internalError);
+    judge(fault_.empty() ? state() : internalError);
     if (stops_ && !text.empty()) context_.control().panel.stop(text, context_.channel().seconds());
   }
 
@@ -156,6 +162,13 @@ private:
     if (closed.end != CameraEnd::Done) fails(closed.detail);
   }
 
+  /// What is not monitored, or not seen, is neither good nor bad.
+  void judge(State state) {
+    const Verdict verdict = state == error ? Verdict::Rework : state == noError ? Verdict::Good : Verdict::None;
+    context_.result(601, state, {.nominal = {}, .lower = {}, .upper = {}, .verdict = verdict});
+    context_.record().verdict = verdict;
+  }
+
   State state() const {
     if (!point_.configured(references_)) return notConfigured;
     return point_.images.back().found.empty() ? noError : error;
@@ -191,6 +204,11 @@ CameraMonitoring& cameraOf(Context& context) {
   return *monitoring;
 }
 
-void monitorByCamera(Context& context, CoverAfterwards cover) { Monitoring(context, cameraOf(context)).run(cover); }
+void monitorByCamera(Context& context, CoverAfterwards cover) {
+  CameraMonitoring& all = cameraOf(context);
+  const std::size_t known = all.points.size();
+  Monitoring monitoring(context, all);
+  monitoring.run(cover, all.points.size() > known);
+}
 
 }  // namespace probewright::cycles::heidenhain

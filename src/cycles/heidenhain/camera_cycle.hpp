@@ -48,7 +48,7 @@ control::heidenhain::CameraMonitoring& cameraOf(Context& context);
 enum class CoverAfterwards { Closed, Open };
 
 /// Opens the cover, takes an image where the spindle stands, compares it, shows it if Q309 and its result ask for that;
-/// leaves the state in Q601.
+/// leaves the state in Q601; an error is a verdict, too.
 void monitorByCamera(Context& context, CoverAfterwards cover);
 
 }  // namespace probewright::cycles::heidenhain
