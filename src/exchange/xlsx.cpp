@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -29,6 +30,36 @@ constexpr std::array kColumns = {
     Column{"Line", 7},    Column{"Feature", 26},   Column{"Characteristic", 32}, Column{"Result", 10},
     Column{"Unit", 6},    Column{"Nominal", 11},   Column{"Lower limit", 11},    Column{"Upper limit", 11},
     Column{"Actual", 11}, Column{"Deviation", 11}, Column{"Verdict", 10},        Column{"Time", 20}};
+
+/// As long as one lives, what is written to `stderr` of the C library goes nowhere: the library for workbooks prints
+/// there why it fails, and cannot be told not to. In glibc it is a variable that programs may set.
+class SilentErrors {
+public:
+  SilentErrors() : heard_(open_memstream(&text_, &size_)), before_(stderr) {
+    if (heard_ != nullptr) stderr = heard_;
+  }
+  ~SilentErrors() {
+    const int reason = errno;
+    stderr = before_;
+    if (heard_ != nullptr) std::fclose(heard_);
+    std::free(text_);
+    errno = reason;
+  }
+  SilentErrors(const SilentErrors&) = delete;
+  SilentErrors& operator=(const SilentErrors&) = delete;
+
+private:
+  char* text_ = nullptr;
+  std::size_t size_ = 0;
+  std::FILE *heard_, *before_;
+};
+
+/// Fails with an error of the library, and with its reason in `errno` if it has one.
+lxw_error closeSilently(lxw_workbook* book) {
+  const SilentErrors silent;
+  errno = 0;
+  return workbook_close(book);
+}
 
 class Sheet {
 public:
@@ -152,8 +183,7 @@ Result<std::string> xlsxFile(const Inspection& inspection) {
   Sheet sheet(book);
   sheet.rows(inspection);
   sheet.run(inspection);
-  errno = 0;
-  const lxw_error error = workbook_close(book);
+  const lxw_error error = closeSilently(book);
   // Of a file that it cannot write the library only says that permissions are the usual reason.
   if (error != LXW_NO_ERROR) return failed(errno != 0 ? std::strerror(errno) : lxw_strerror(error));
   return readFile(file);

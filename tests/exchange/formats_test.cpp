@@ -2,8 +2,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
+#include <csignal>
+#include <cstdio>
 #include <limits>
 #include <regex>
 
@@ -137,6 +140,41 @@ TEST(Xlsx, IsReadBackByOpenpyxl) {
     EXPECT_THAT(read, HasSubstr("|Q150|1.5008123|None|none\n"));
     EXPECT_THAT(read, HasSubstr(each.run.partName + "\n"));
   }
+}
+
+/// No file may have more bytes than this. The signal that asks for it is ignored, so that writing fails.
+class SmallFiles {
+public:
+  explicit SmallFiles(rlim_t most) : signal_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit small{most, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+  }
+  ~SmallFiles() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, signal_);
+  }
+  SmallFiles(const SmallFiles&) = delete;
+  SmallFiles& operator=(const SmallFiles&) = delete;
+
+private:
+  rlimit before_{};
+  void (*signal_)(int);
+};
+
+/// The message is all that is said: the library for workbooks speaks on the standard error output by itself.
+TEST(Xlsx, SaysOnceThatItCannotBeWritten) {
+  ::testing::internal::CaptureStderr();
+  Result<std::string> file = "";
+  {
+    const SmallFiles small(1000);  // a workbook has more
+    file = xlsxFile(inspection());
+  }
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+  ASSERT_FALSE(file);
+  EXPECT_EQ(format(file.error()).find("inspection.xlsx: error: the workbook cannot be written: File too large"), 0U)
+      << format(file.error());
+  EXPECT_TRUE(xlsxFile(inspection()));
 }
 
 std::string validated(const std::string& qif) {
