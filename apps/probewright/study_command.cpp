@@ -209,14 +209,25 @@ int study(const StudyArguments& given) {
 
   std::error_code error;
   fs::create_directories(arguments.out, error);
-  if (first && !arguments.resume) {
-    removeStudyState(arguments.out);
-    if (sums) fs::remove(trialFile, error);  // else the first trials replace those of an earlier study
-  }
+  std::set<FileIdentity> identities;
+  for (const fs::path& input : inputs)
+    if (const auto identity = identityOf(input)) identities.insert(*identity);
+  // Results belong to the trials beside them: those of an earlier study go when the first trials of this one come.
+  bool dropped = false;
+  const auto dropEarlier = [&]() -> Result<void> {
+    if (dropped) return {};
+    if (Result<void> removed = removeEarlierRun(arguments.out, {}, identities); !removed) return removed;
+    dropped = true;
+    if (arguments.resume) return {};
+    if (!sums) removeStudyState(arguments.out);
+    std::error_code ignored;
+    if (sums) fs::remove(trialFile, ignored);  // else the first trials replace those of an earlier study
+    return {};
+  };
   std::vector<std::string> names;
   for (const study::Source& source : plan->sources)
     names.push_back(source.name);
-  study::TrialWriter writer(trialFile, mark, names);
+  study::TrialWriter writer(trialFile, mark, names, dropEarlier);
   std::optional<Diagnostic> notKept;
   std::stop_source diskFull;
   const std::stop_callback forward(interruption.token(), [&] { diskFull.request_stop(); });
@@ -254,7 +265,7 @@ int study(const StudyArguments& given) {
     constexpr std::uint64_t sumsOfARank = 250;
     run.summing->stretch = std::max(run.summing->stretch, sumsOfARank * static_cast<std::uint64_t>(ranks.size));
     run.keepState = [&](const std::string& state) {
-      if (first && !notKept) keptOrStop(writeStudyState(arguments.out, mark, state));
+      if (first && !notKept) keptOrStop(writeStudyState(arguments.out, mark, state, dropEarlier));
     };
   }
   const study::StudyResult result = study::runStudy(
@@ -272,11 +283,12 @@ int study(const StudyArguments& given) {
   }
   const int exit = result.end == study::StudyEnd::Interrupted || result.finished == 0 ? 3 : 0;
   if (!first) return exit;
+  if (result.end == study::StudyEnd::Interrupted && !dropped && !arguments.resume) {
+    if (!arguments.quiet) fmt::print(stderr, "interrupted before the first trial: nothing is written\n");
+    return exit;
+  }
 
   const study::StudyInfo info{arguments.program.string(), arguments.setup.string(), PROBEWRIGHT_VERSION};
-  std::set<FileIdentity> identities;
-  for (const fs::path& input : inputs)
-    if (const auto identity = identityOf(input)) identities.insert(*identity);
   Output output{arguments.out, {}, std::move(identities)};
   output.files.emplace_back("study.json",
                             [&](const Sink& sink) { sink(study::studyJson(result, info).dump(1) + "\n"); });

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/file.hpp"
+#include "base/unfinished.hpp"
 
 namespace probewright::app {
 
@@ -43,8 +44,9 @@ Result<std::optional<std::string>> readStudyState(const fs::path& folder, const 
   return state;
 }
 
-Result<void> writeStudyState(const fs::path& folder, const std::string& mark, const std::string& state) {
-  return writeFileAtomically(folder / name, firstLine(mark, state) + state);
+Result<void> writeStudyState(const fs::path& folder, const std::string& mark, const std::string& state,
+                             const std::function<Result<void>()>& beforeReplacing) {
+  return replaceFile(folder / name, firstLine(mark, state) + state, beforeReplacing);
 }
 
 std::optional<Diagnostic> whyNotStudyState(const fs::path& folder) {

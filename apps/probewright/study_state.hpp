@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -11,7 +12,9 @@ namespace probewright::app {
 
 /// Nothing if there is no such file. Fails if it is of another study than `mark` says, something else, or damaged.
 Result<std::optional<std::string>> readStudyState(const std::filesystem::path& folder, const std::string& mark);
-Result<void> writeStudyState(const std::filesystem::path& folder, const std::string& mark, const std::string& state);
+/// `beforeReplacing` as of replaceFile().
+Result<void> writeStudyState(const std::filesystem::path& folder, const std::string& mark, const std::string& state,
+                             const std::function<Result<void>()>& beforeReplacing);
 
 /// Why the file must not be written there: something else has its name. Nothing if it may.
 std::optional<Diagnostic> whyNotStudyState(const std::filesystem::path& folder);

@@ -131,11 +131,7 @@ Result<void> writeFileAtomically(const std::filesystem::path& path, std::string_
   if (std::filesystem::is_directory(path, error)) {
     return fail(SourcePlace{path.string(), 0, 0}, "cannot write this file: a folder has its name");
   }
-  auto aside = UnfinishedFile::beside(path);
-  if (!aside) return tl::unexpected(aside.error());
-  const int file = aside->descriptor();
-  if (writeAll(file, bytes) && ::fchmod(file, 0644) == 0 && ::fsync(file) == 0 && aside->finish()) return {};
-  return failErrno(path, "write this file");
+  return replaceFile(path, bytes, [] { return Result<void>(); });
 }
 
 }  // namespace probewright

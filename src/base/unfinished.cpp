@@ -142,6 +142,17 @@ bool UnfinishedFile::finish() {
   return true;
 }
 
+Result<void> replaceFile(const fs::path& path, std::string_view bytes,
+                         const std::function<Result<void>()>& beforeReplacing) {
+  auto aside = UnfinishedFile::beside(path);
+  if (!aside) return tl::unexpected(aside.error());
+  const int file = aside->descriptor();
+  if (!writeAll(file, bytes) || ::fchmod(file, 0644) != 0 || ::fsync(file) != 0)
+    return failErrno(path, "write this file");
+  if (Result<void> ready = beforeReplacing(); !ready) return ready;
+  return aside->finish() ? Result<void>() : failErrno(path, "write this file");
+}
+
 ScratchFolder::ScratchFolder() : ScratchFolder(inTemporaryFolder()) {}
 
 ScratchFolder::ScratchFolder(const fs::path& target) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <string_view>
 #include <utility>
 
 #include "base/diagnostic.hpp"
@@ -45,6 +47,11 @@ private:
   MakersLock lock_;
   std::filesystem::path path_, target_;
 };
+
+/// Writes the file whole or not at all, as writeFileAtomically() does. `beforeReplacing` is called when the new one is
+/// ready on the disk: if it fails, so does this, and the file stays as it was.
+Result<void> replaceFile(const std::filesystem::path& path, std::string_view bytes,
+                         const std::function<Result<void>()>& beforeReplacing);
 
 /// A folder for files that nobody needs afterwards; only its owner can look into it. Goes with all that is in it.
 class ScratchFolder {

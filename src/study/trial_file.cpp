@@ -165,11 +165,16 @@ std::optional<TrialReader::Trial> TrialReader::next() {
   return trial;
 }
 
-TrialWriter::TrialWriter(fs::path path, std::string mark, std::vector<std::string> sources)
-    : path_(std::move(path)), mark_(std::move(mark)), columns_{std::move(sources), {}, {}} {}
+TrialWriter::TrialWriter(fs::path path, std::string mark, std::vector<std::string> sources,
+                         std::function<Result<void>()> beforeChange)
+    : path_(std::move(path)),
+      mark_(std::move(mark)),
+      columns_{std::move(sources), {}, {}},
+      beforeChange_(std::move(beforeChange)) {}
 
 Result<void> TrialWriter::goOn(const TrialReader& done) {
   if (done.trials() == 0) return {};
+  if (Result<void> ready = beforeChange_(); !ready) return ready;
   std::error_code error;
   fs::resize_file(path_, done.bytes(), error);
   if (error) return fail({path_.string(), 0, 0}, "cannot go on with the file: " + error.message(), "");
@@ -271,7 +276,7 @@ Result<void> TrialWriter::write(std::span<const Draw> draws, std::span<const Out
   const bool more = learn(outcomes);
   const std::string text = rows(draws, outcomes);
   if (!begun_) {
-    const Result<void> done = writeFileAtomically(path_, heading() + text);
+    const Result<void> done = replaceFile(path_, heading() + text, beforeChange_);
     begun_ = done.has_value();
     return done;
   }

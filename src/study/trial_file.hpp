@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -54,7 +55,11 @@ private:
 class TrialWriter {
 public:
   /// `mark` tells studies apart: trials of one are of no use to another. Replaces a file that is there.
-  TrialWriter(std::filesystem::path path, std::string mark, std::vector<std::string> sources);
+  /// `beforeChange` is called once, when the first trials are ready to be there: takes away what else belongs to the
+  /// file as it is. If it fails, the file stays so.
+  TrialWriter(
+      std::filesystem::path path, std::string mark, std::vector<std::string> sources,
+      std::function<Result<void>()> beforeChange = [] { return Result<void>(); });
 
   /// Goes on where `done` has come to: what follows there goes.
   Result<void> goOn(const TrialReader& done);
@@ -72,6 +77,7 @@ private:
   std::filesystem::path path_;
   std::string mark_;
   TrialColumns columns_;
+  std::function<Result<void>()> beforeChange_;
   bool begun_ = false;
 };
 

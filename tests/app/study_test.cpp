@@ -153,6 +153,37 @@ TEST(StudyCommand, LeavesAllFilesOfTheStudyBeforeIfItsOwnDoNotFit) {
   EXPECT_EQ(files(), before);
 }
 
+/// One that fails after its first trials leaves those alone: results belong to the trials beside them.
+TEST(StudyCommand, LeavesNoResultsBesideTrialsOfAnotherStudy) {
+  const Folder folder;
+  const std::string setup = folder.file("s.toml", blockSetup()), out = (folder / "out").string();
+  const std::string file = folder.file("t.toml", study), said = (folder / "said").string();
+  // The signal for files that are too large is ignored, so that the write fails.
+  const auto run = [&](const std::string& program, const std::string& more, const std::string& largest) {
+    const std::string command = "(trap '' XFSZ; exec prlimit --fsize=" + largest + " " PROBEWRIGHT_PROGRAM " study " +
+                                program + " --setup " + setup + " --study " + file + " --out " + out + " --quiet " +
+                                more + ") >" + said + " 2>&1";
+    return WEXITSTATUS(std::system(command.c_str()));
+  };
+  const auto hasOnlyTrials = [&] { return namesIn(folder / "out") == std::vector<std::string>{"trials.csv"}; };
+  const std::string first = folder.file("p.h", blockProgram()), second = folder.file("q.h", blockProgram("+20.1"));
+  ASSERT_EQ(run(first, "--trials 60", "unlimited"), 0) << textOf(said);
+  EXPECT_THAT(namesIn(folder / "out"), ::testing::IsSupersetOf({"study.json", "study.csv", "trials.csv"}));
+  const std::string before = textOf(folder / "out/trials.csv");
+  // 500 trials are written at a time, with about 75 bytes each.
+  ASSERT_EQ(run(second, "--trials 2000", "60000"), 2) << textOf(said);
+  EXPECT_THAT(textOf(said), ::testing::HasSubstr("trials.csv: error: cannot add trials to the file"));
+  EXPECT_TRUE(textOf(folder / "out/trials.csv") != before) << "its own trials";
+  EXPECT_TRUE(hasOnlyTrials());
+  // It goes on from there; what it has then is a set again.
+  ASSERT_EQ(run(second, "--trials 2000 --resume", "unlimited"), 0) << textOf(said);
+  EXPECT_EQ(studyIn(folder)["trials"], 2000);
+  // A study that goes on has more trials than its earlier results count.
+  const auto size = std::filesystem::file_size(folder / "out/trials.csv");
+  ASSERT_EQ(run(second, "--trials 4000 --resume", std::to_string(size + 60000)), 2) << textOf(said);
+  EXPECT_TRUE(hasOnlyTrials());
+}
+
 TEST(StudyCommand, NeverReplacesWhatIsNotOfAStudy) {
   const Folder folder;
   std::filesystem::create_directory(folder / "out");
