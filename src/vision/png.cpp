@@ -22,14 +22,13 @@ std::string encode(const void* pixels, int width, int height, png_uint_32 format
   image.width = static_cast<png_uint_32>(width);
   image.height = static_cast<png_uint_32>(height);
   image.format = format;
-  png_alloc_size_t size = 0;
-  std::string bytes;
-  if (png_image_write_to_memory(&image, nullptr, &size, 0, pixels, 0, nullptr) != 0) {
+  // Asking for the size would compress the picture once more.
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+  std::string bytes(size, '\0');
+  if (png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels, 0, nullptr) != 0) {
     bytes.resize(size);
-    if (png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels, 0, nullptr) != 0) {
-      bytes.resize(size);
-      return bytes;
-    }
+    bytes.shrink_to_fit();
+    return bytes;
   }
   throw std::runtime_error(std::string("libpng cannot write a picture: ") + &image.message[0]);
 }
