@@ -422,8 +422,12 @@ private:
       if (side.size() < 2 || std::abs(side.front()->direction.z()) > 0.5) continue;
       const auto truth = trueFlat(side);
       if (!truth) continue;
-      for (const Plane& believed : believedFlats(side))
+      for (const Plane& believed : believedFlats(side)) {
+        // Nobody touches a wall along itself: such points lie on two features, in line with the touches.
+        constexpr double along = 0.05;
+        if (std::abs(believed.normal.dot(side.front()->direction)) < along) continue;
         addAngle(found, directionOf(believed.normal), directionOf(truth->plane.normal), truth->origin);
+      }
     }
     const std::vector<FoundRound>& holes = rounds();
     if (holes.size() < 2) return;

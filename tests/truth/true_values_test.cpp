@@ -172,6 +172,30 @@ TEST(TrueValues, OfACornerAndACircleOfHolesComeFromSeveralFaces) {
   EXPECT_NEAR(bolts.value("Q153"), 2 * circle.radius, exact);
 }
 
+/// In line with the touches the points of both holes lie in a plane, which nobody has measured.
+TEST(TrueValues, OfALineThroughTwoHolesAreItsAngleInLineWithTheTouches) {
+  for (const double c : {0.0, 0.7, -0.4}) {
+    World world;
+    world.origin = {0, 0, -480};
+    world.part = fmt::format(
+        "[part]\npose = {{ z = -480, c = {} }}\n[[part.feature]]\nshape = \"box\"\ncentre = [0, 0, -20]\nsize = [80, "
+        "60, "
+        "20]\n",
+        c);
+    for (const int x : {-20, 20})
+      world.part += fmt::format("[[part.feature]]\nshape = \"hole\"\ndiameter = 16\ncentre = [{}, 0, 0]\n", x);
+    const Told told =
+        run(world,
+            "TOOL CALL 1 Z\nL Z+50 R0 FMAX\nTCH PROBE 1411 TWO CIRCLES ~\nQ1100=-20 ~\nQ1101=+0 ~\nQ1102=-5 ~\n"
+            "Q1116=+16 ~\nQ1103=+20 ~\nQ1104=+0 ~\nQ1105=-5 ~\nQ1117=+16 ~\nQ1115=+0 ~\nQ423=+4 ~\nQ325=+0 ~\n"
+            "Q1119=+360 ~\nQ320=+0 ~\nQ260=+20 ~\nQ1125=+2 ~\nQ309=+0 ~\nQ1126=+0 ~\nQ1120=+0 ~\nQ1121=+0\n");
+    ASSERT_TRUE(told.finished()) << told.why();
+    EXPECT_NEAR(told.measured("Q964"), c, exact);
+    ASSERT_TRUE(told.of("Q964"));
+    EXPECT_NEAR(told.value("Q964"), c, exact);
+  }
+}
+
 /// The axis of the shaft lies a little beside the turning axis: one touch is wrong by that, two are not.
 TEST(TrueValues, OfATurnedDiameterAreThoseOfAllItsTouches) {
   for (const double beside : {-0.0076, 0.004}) {
