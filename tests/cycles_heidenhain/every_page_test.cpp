@@ -309,6 +309,24 @@ TEST(EveryPage, RefusesEveryParameterOutsideItsRange) {
   EXPECT_GT(refused, 1000U);
 }
 
+/// The pages print 0 as the default of the coordinate that the feature gets; those of 408 and 409 know no Q303 = -1.
+TEST(EveryPage, GivesTheFeatureTheCoordinateZeroWhereNoneIsCalledFor) {
+  for (int number = 408; number <= 419; ++number) {
+    const cycles::CycleDefinition* cycle = cycles::heidenhainCycle(number);
+    ASSERT_NE(cycle, nullptr) << number;
+    int coordinates = 0;
+    for (const std::uint32_t address : {331U, 332U, 333U, 405U}) {
+      const cycles::Parameter* parameter = cycle->parameter(address);
+      if (parameter == nullptr) continue;
+      ++coordinates;
+      EXPECT_EQ(parameter->standard, 0) << number << " Q" << address;
+    }
+    EXPECT_GT(coordinates, 0) << number;
+    const std::optional<double> transfer = cycle->parameter(303)->standard;
+    EXPECT_EQ(transfer, number > 409 ? std::optional<double>(-1) : std::nullopt) << number;
+  }
+}
+
 /// Q305 and Q303 of the iTNC 530: row 0 sets the datum at once whatever Q303 says.
 TEST(PresetTransfer, FollowsTheITNC530InEveryCombination) {
   Bench bench(older);

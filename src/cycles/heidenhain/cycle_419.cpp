@@ -17,7 +17,7 @@ constexpr Parameter parameters419[] = {
     measuringAxis3,
     probingDirection,
     presetTableRow,
-    coordinate(333, "Q333", "coordinate that the touched point gets in the measuring axis"),
+    standard(coordinate(333, "Q333", "coordinate that the touched point gets in the measuring axis"), 0),
     standard(transfer, -1),
 };
 

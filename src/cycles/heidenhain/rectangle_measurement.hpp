@@ -73,7 +73,7 @@ inline constexpr std::array widthCentre = {
 inline constexpr std::array widthTransfer = joined(
     std::array{presetTableRow,
                standard(coordinate(405, "Q405", "coordinate that the centre line gets in the measured axis"), 0)},
-    joined(std::array{standard(chosenTransfer, -1)}, toolAxisPreset));
+    joined(std::array{chosenTransfer}, toolAxisPreset));
 
 inline constexpr std::array widthResults = {
     ResultDefinition{"Q166", {"actual ", "width"}, result::actual(of::width).main()},
