@@ -64,8 +64,8 @@ std::vector<Task> tasks() {
   };
 }
 
-/// Where the corrected offset is selected, the probe drives to its origin and stands there. It has been selected before:
-/// its row is there.
+/// Where the corrected offset is selected, the probe drives to its origin and stands there. It has been selected
+/// before: its row is there.
 std::string program(const Task& task, int offset, double safe, const char* code) {
   return "G17 G90 G710\nT1\nM6 D1\nG55\nG54\nG0 Z120\n" + task.start +
          sinumerikCall(task.cycle, with(with(always, task.words), {{"S_KNUM", offset}, {"S_TSA", safe}})) +

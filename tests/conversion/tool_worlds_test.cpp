@@ -259,7 +259,8 @@ TEST(ToolConversion, ToKlartextNamesWhatTouchProbeCyclesLack) {
   EXPECT_NE(text("CYCLE971(2,0,1,3,0,0,15,15,,,,3)").find("S_NMSP: one touch"), std::string::npos);
 }
 
-/// In workpiece coordinates the contact of the probe lies elsewhere under another zero offset; only the SINUMERIK knows.
+/// In workpiece coordinates the contact of the probe lies elsewhere under another zero offset; only the SINUMERIK
+/// knows.
 TEST(ToolConversion, ToKlartextNamesToolsMeasuredInWorkpieceCoordinates) {
   const auto listed = [](const std::string& variant) {
     std::string all;
