@@ -16,11 +16,12 @@ void meetAnalyticFace(const CadFace& face, const Way& way, double radius, Meetin
 
 /// A face of any shape, near one triangle of its tessellation; `coarse` is the meeting with the grown triangle. False
 /// if that is not enough to tell where the ball meets it; then it takes a closer look.
-bool meetFaceNear(const CadFace& face, const CadElement& triangle, const Meeting& coarse, const Way& way, double radius,
-                  Meeting& best);
+bool meetFaceNear(const CadFace& face, const Adaptor3d_Surface& surface, const CadElement& triangle,
+                  const Meeting& coarse, const Way& way, double radius, Meeting& best);
 
 /// The closer look: slow, and the faster the more is known already of other faces and edges.
-void meetFaceClosely(const CadFace& face, const CadElement& triangle, const Way& way, double radius, Meeting& best);
+void meetFaceClosely(const CadFace& face, const Adaptor3d_Surface& surface, const CadElement& triangle, const Way& way,
+                     double radius, Meeting& best);
 
 /// A straight or round edge with its ends, whole.
 void meetSimpleEdge(const CadEdge& edge, const Way& way, double radius, Meeting& best);

@@ -282,7 +282,8 @@ std::vector<CadElement> faceElements(const CadFace& exact, const TopoDS_Face& fa
 
 void addEdgeElements(CadModel& model, std::uint32_t owner, double deflection) {
   const CadEdge& edge = model.edges[owner];
-  const auto at = [&](double t) { return vector(edge.curve->Value(t)); };
+  const GeomAdaptor_Curve curve(edge.curve);
+  const auto at = [&](double t) { return vector(curve.Value(t)); };
   const auto deviation = [&](double a, double b) {
     const Vector3 from = at(a);
     const Vector3 to = at(b);

@@ -3,6 +3,7 @@
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepTools_WireExplorer.hxx>
 #include <BRep_Tool.hxx>
+#include <Geom2dAdaptor_Curve.hxx>
 #include <Geom2d_Curve.hxx>
 #include <Geom2d_Line.hxx>
 #include <Geom2d_TrimmedCurve.hxx>
@@ -103,39 +104,43 @@ std::vector<Vector2> borderPoints(const TopoDS_Edge& edge, const TopoDS_Face& fa
   // Splines go on beyond their ends, but not as anybody meant them to.
   Vector2 low, high;
   surface.Bounds(low.x(), high.x(), low.y(), high.y());
+  const Geom2dAdaptor_Curve quickCurve(curve);
   const auto at = [&](double t) {
-    const gp_Pnt2d p = curve->Value(t);
+    const gp_Pnt2d p = quickCurve.Value(t);
     const double u = surface.IsUPeriodic() ? p.X() : std::clamp(p.X(), low.x(), high.x());
     const double v = surface.IsVPeriodic() ? p.Y() : std::clamp(p.Y(), low.y(), high.y());
     return Vector2(u, v);
   };
   Handle(Geom2d_Curve) plain = curve;
   if (const auto trimmed = Handle(Geom2d_TrimmedCurve)::DownCast(plain)) plain = trimmed->BasisCurve();
-  std::vector<double> parameters{first};
+  points.push_back(at(first));
   if (plain->IsKind(STANDARD_TYPE(Geom2d_Line))) {
-    parameters.push_back(last);
+    points.push_back(at(last));
   } else {
     const bool flat = surface.IsKind(STANDARD_TYPE(Geom_Plane));
-    const auto onSurface = [&](const Vector2& uv) {
-      return flat ? Vector3(uv.x(), uv.y(), 0) : vector(quick.Value(uv.x(), uv.y()));
-    };
-    const auto deviates = [&](double a, double b) {
-      const Vector2 from = at(a);
-      const Vector2 to = at(b);
-      for (const double part : {0.5, 0.3}) {
-        const Vector2 chord = from + part * (to - from);
-        if ((onSurface(at(a + part * (b - a))) - onSurface(chord)).norm() > kBorderTolerance) return true;
+    // Appends points until chords leave the edge by little, by the directions of the surface in their middle.
+    const auto follow = [&](const auto& self, double a, double b, const Vector2& to, int halvings) -> void {
+      const Vector2 from = points.back(), middle = at((a + b) / 2);
+      gp_Vec u(1, 0, 0), v(0, 1, 0);
+      gp_Pnt place;
+      if (!flat) quick.D1(middle.x(), middle.y(), place, u, v);
+      const auto deviates = [&](const Vector2& uv, double part) {
+        const Vector2 off = uv - from - part * (to - from);
+        return (off.x() * vector(u) + off.y() * vector(v)).norm() > kBorderTolerance;
+      };
+      if (halvings == 0 || !(deviates(middle, 0.5) || deviates(at(a + 0.3 * (b - a)), 0.3))) {
+        points.push_back(to);
+      } else {
+        self(self, a, (a + b) / 2, middle, halvings - 1);
+        self(self, (a + b) / 2, b, to, halvings - 1);
       }
-      return false;
     };
     constexpr int kPieces = 4;
     for (int i = 0; i < kPieces; ++i) {
-      subdivide(first + (last - first) * i / kPieces, first + (last - first) * (i + 1) / kPieces, 12, deviates,
-                parameters);
+      const double from = first + (last - first) * i / kPieces, to = first + (last - first) * (i + 1) / kPieces;
+      follow(follow, from, to, at(to), 12);
     }
   }
-  for (const double t : parameters)
-    points.push_back(at(t));
   if (edge.Orientation() == TopAbs_REVERSED) std::reverse(points.begin(), points.end());
   return points;
 }

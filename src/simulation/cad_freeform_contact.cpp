@@ -16,7 +16,7 @@ struct SurfacePoint {
   Vector3 point, u, v, uu, uv, vv;
 };
 
-SurfacePoint evaluate(const Geom_Surface& surface, const Vector2& at) {
+SurfacePoint evaluate(const Adaptor3d_Surface& surface, const Vector2& at) {
   gp_Pnt p;
   gp_Vec u, v, uu, vv, uv;
   surface.D2(at.x(), at.y(), p, u, v, uu, vv, uv);
@@ -47,15 +47,15 @@ Vector2 parameterExtent(const CadElement& t) {
 
 /// The size of the whole surface in each parameter, as a limit for steps. At a pole the equations for a step have no
 /// single solution; splines that close refuse parameters many turns away.
-Vector2 parameterSize(const Geom_Surface& surface) {
+Vector2 parameterSize(const Adaptor3d_Surface& surface) {
   constexpr double kMost = 1e6;
-  double u0 = 0, u1 = 0, v0 = 0, v1 = 0;
-  surface.Bounds(u0, u1, v0, v1);
-  return Vector2(u1 - u0, v1 - v0).cwiseMin(kMost);
+  return Vector2(surface.LastUParameter() - surface.FirstUParameter(),
+                 surface.LastVParameter() - surface.FirstVParameter())
+      .cwiseMin(kMost);
 }
 
 /// Moves `at` to the parameters of the surface's point nearest to p, starting nearby. False if that does not settle.
-bool projectOntoSurface(const Geom_Surface& surface, const Vector3& p, const Vector2& extent, Vector2& at) {
+bool projectOntoSurface(const Adaptor3d_Surface& surface, const Vector3& p, const Vector2& extent, Vector2& at) {
   Settling settling(1e-11);
   for (int i = 0; i < 30; ++i) {
     const SurfacePoint s = evaluate(surface, at);
@@ -80,8 +80,8 @@ bool projectOntoSurface(const Geom_Surface& surface, const Vector3& p, const Vec
 /// Newton's method for the place where a ball on its way touches the surface. False if it does not settle, or goes
 /// astray on the way.
 template <class GoesAstray>
-bool solveSurfaceTouch(const Geom_Surface& surface, const Way& way, double radius, const Vector2& extent, Vector2& at,
-                       double& when, const GoesAstray& goesAstray) {
+bool solveSurfaceTouch(const Adaptor3d_Surface& surface, const Way& way, double radius, const Vector2& extent,
+                       Vector2& at, double& when, const GoesAstray& goesAstray) {
   Settling settling(1e-12);
   for (int i = 0; i < 25; ++i) {
     const SurfacePoint s = evaluate(surface, at);
@@ -111,8 +111,8 @@ bool solveSurfaceTouch(const Geom_Surface& surface, const Way& way, double radiu
 /// One search for the contact of a ball with a free-form face.
 class FaceSearch {
 public:
-  FaceSearch(const CadFace& face, const Way& way, double radius, Meeting& best)
-      : face_(face), surface_(*face.surface), way_(way), radius_(radius), best_(best) {}
+  FaceSearch(const CadFace& face, const Adaptor3d_Surface& surface, const Way& way, double radius, Meeting& best)
+      : face_(face), surface_(surface), way_(way), radius_(radius), best_(best) {}
 
   /// Looks near one triangle; `coarse` is the meeting with the grown triangle. False if it cannot tell.
   bool near(const CadElement& triangle, const Meeting& coarse) {
@@ -388,7 +388,7 @@ private:
   }
 
   const CadFace& face_;
-  const Geom_Surface& surface_;
+  const Adaptor3d_Surface& surface_;
   const Way& way_;
   double radius_;
   Meeting& best_;
@@ -397,13 +397,14 @@ private:
 
 }  // namespace
 
-bool meetFaceNear(const CadFace& face, const CadElement& triangle, const Meeting& coarse, const Way& way, double radius,
-                  Meeting& best) {
-  return FaceSearch(face, way, radius, best).near(triangle, coarse);
+bool meetFaceNear(const CadFace& face, const Adaptor3d_Surface& surface, const CadElement& triangle,
+                  const Meeting& coarse, const Way& way, double radius, Meeting& best) {
+  return FaceSearch(face, surface, way, radius, best).near(triangle, coarse);
 }
 
-void meetFaceClosely(const CadFace& face, const CadElement& triangle, const Way& way, double radius, Meeting& best) {
-  FaceSearch(face, way, radius, best).closely(triangle);
+void meetFaceClosely(const CadFace& face, const Adaptor3d_Surface& surface, const CadElement& triangle, const Way& way,
+                     double radius, Meeting& best) {
+  FaceSearch(face, surface, way, radius, best).closely(triangle);
 }
 
 }  // namespace probewright::simulation

@@ -21,9 +21,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "simulation/cad_bounds.hpp"
 #include "simulation/cad_elements.hpp"
 #include "simulation/cad_kinks.hpp"
-#include "simulation/cad_refinement.hpp"
 #include "simulation/cad_vectors.hpp"
 #include "simulation/face_mesh.hpp"
 #include "simulation/memory_text.hpp"
@@ -146,53 +146,6 @@ CadModel modelOf(const TopoDS_Shape& shape, double deflection, std::vector<Trimm
   }
   if (model.faces.empty()) throw std::runtime_error("the shape has no face that can be touched");
   return model;
-}
-
-void addTo(Bounds& bounds, const Triangle& triangle) {
-  for (const Vector3& corner : triangle) {
-    bounds.minimum = bounds.minimum.cwiseMin(corner);
-    bounds.maximum = bounds.maximum.cwiseMax(corner);
-  }
-}
-
-/// A box about the shape, to within its deflection; of elements that stand face after face.
-Bounds boundsOf(const CadModel& model) {
-  Bounds bounds;
-  for (const CadElement& element : model.elements)
-    addTo(bounds, element.corners);
-  // The surface may reach further than the corners of its triangles.
-  std::vector<std::size_t> begins;  // of the elements of each face
-  for (std::size_t i = 0; i < model.elements.size(); ++i) {
-    const CadElement& element = model.elements[i];
-    if (element.kind != CadElement::Kind::Face) break;
-    if (i == 0 || element.owner != model.elements[i - 1].owner) begins.push_back(i);
-  }
-  std::vector<Bounds> ofFaces(begins.size(), bounds);
-  inParallel(begins.size(), kWorthAThread, [&](std::size_t k) {
-    Bounds& ofFace = ofFaces[k];
-    const auto reachesFurther = [&](const Triangle& triangle, double growth) {
-      const double further = growth - model.deflection;
-      return std::ranges::any_of(triangle, [&](const Vector3& corner) {
-        return (corner.array() - further < ofFace.minimum.array()).any() ||
-               (corner.array() + further > ofFace.maximum.array()).any();
-      });
-    };
-    const std::uint32_t owner = model.elements[begins[k]].owner;
-    const GeomAdaptor_Surface surface(model.faces[owner].surface);
-    for (std::size_t i = begins[k]; i < model.elements.size(); ++i) {
-      const CadElement& element = model.elements[i];
-      if (element.kind != CadElement::Kind::Face || element.owner != owner) break;
-      if (element.onFace) {
-        visitFinely(model, element, surface, reachesFurther,
-                    [&](const Triangle& triangle) { addTo(ofFace, triangle); });
-      }
-    }
-  });
-  for (const Bounds& ofFace : ofFaces) {
-    bounds.minimum = bounds.minimum.cwiseMin(ofFace.minimum);
-    bounds.maximum = bounds.maximum.cwiseMax(ofFace.maximum);
-  }
-  return bounds;
 }
 
 }  // namespace

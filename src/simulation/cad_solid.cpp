@@ -41,7 +41,7 @@ struct OpenQuestion {
 };
 
 void meet(const CadModel& model, const CadElement& element, const Way& way, double radius, Memory& memory,
-          std::vector<OpenQuestion>& open, Meeting& best) {
+          QuickSurfaces& surfaces, std::vector<OpenQuestion>& open, Meeting& best) {
   Meeting coarse;
   coarse.when = best.when;
   const bool isFace = element.kind == CadElement::Kind::Face;
@@ -55,14 +55,15 @@ void meet(const CadModel& model, const CadElement& element, const Way& way, doub
       if (!memory.knows(element)) meetAnalyticFace(face, way, radius, best);
     } else {
       visitForBall(
-          model, element, radius,
+          model, element, surfaces, radius,
           [&](const CadElement& part) {
             coarse = {};
             coarse.when = best.when;
             return sweepTriangle(way, radius + part.growth, part.corners, coarse);
           },
           [&](const CadElement& part) {
-            if (!meetFaceNear(face, part, coarse, way, radius, best)) open.push_back({part, coarse.when});
+            if (!meetFaceNear(face, surfaces.of(part.owner), part, coarse, way, radius, best))
+              open.push_back({part, coarse.when});
           });
     }
   } else {
@@ -118,6 +119,7 @@ std::size_t CadSolid::triangleCount() const {
 }
 
 bool CadSolid::isInside(const Vector3& point) const {
+  QuickSurfaces surfaces(*model_);
   return model_->closedBodies > 0 &&
          isWithin(model_->tree, point, Rays::Majority, [&](std::uint32_t place, const Triangle&, const auto& cross) {
            const CadElement& element = model_->elements[place];
@@ -128,7 +130,7 @@ bool CadSolid::isInside(const Vector3& point) const {
              if (!near) cross(t);
              return near;
            };
-           visitFinely(*model_, element, isNear, cross);
+           visitFinely(*model_, element, surfaces, isNear, cross);
          });
 }
 
@@ -136,15 +138,17 @@ std::optional<BallContact> CadSolid::firstContact(const Vector3& from, const Vec
   const Mover mover{wayBetween(from, to), radius};
   Meeting best;
   Memory memory;
+  QuickSurfaces surfaces(*model_);
   std::vector<OpenQuestion> open;
   model_->tree.search(mover, best, [&](std::uint32_t place, const Triangle&) {
-    meet(*model_, model_->elements[place], mover.way, radius, memory, open, best);
+    meet(*model_, model_->elements[place], mover.way, radius, memory, surfaces, open, best);
   });
   // Only now, because borders and neighbours answer most of them.
   std::sort(open.begin(), open.end(), [](const auto& a, const auto& b) { return a.soonest < b.soonest; });
   for (const OpenQuestion& question : open) {
+    const std::uint32_t face = question.triangle.owner;
     if (question.soonest < best.when)
-      meetFaceClosely(model_->faces[question.triangle.owner], question.triangle, mover.way, radius, best);
+      meetFaceClosely(model_->faces[face], surfaces.of(face), question.triangle, mover.way, radius, best);
   }
   // From within one body the ball may meet another body's front: where both touch, or where they overlap.
   const bool startsOutside = model_->closedBodies == 1 && meetsFront(mover.way, best);
@@ -156,6 +160,7 @@ std::optional<BallContact> CadSolid::firstCapsuleContact(const Vector3& from, co
                                                          double radius) const {
   const Way way = wayBetween(from, to);
   Meeting best;
+  QuickSurfaces surfaces(*model_);
   const std::size_t parts = capsuleParts(axis, radius);
   const Vector3 part = axis / static_cast<double>(parts);
   for (std::size_t i = 0; i < parts; ++i) {
@@ -164,7 +169,7 @@ std::optional<BallContact> CadSolid::firstCapsuleContact(const Vector3& from, co
       const CadElement& element = model_->elements[place];
       if (!element.isTriangle() || passes(model_->faces[element.owner], mover, radius)) return;
       visitFinely(
-          *model_, element,
+          *model_, element, surfaces,
           [&](const Triangle& t, double growth) {
             Meeting coarse;
             coarse.when = best.when;
@@ -182,11 +187,12 @@ std::optional<BallContact> CadSolid::firstCylinderContact(const Vector3& from, c
   const Mover mover{wayBetween(from, to), 0, axis, radius};
   const double height = axis.norm();
   Meeting best;
+  QuickSurfaces surfaces(*model_);
   model_->tree.search(mover, best, [&](std::uint32_t place, const Triangle&) {
     const CadElement& element = model_->elements[place];
     if (!element.isTriangle() || passes(model_->faces[element.owner], mover, radius)) return;
     visitFinely(
-        *model_, element,
+        *model_, element, surfaces,
         [&](const Triangle& t, double growth) {
           const Vector3 more = axis * (growth / height);
           const Way way{mover.way.start - more, mover.way.direction, mover.way.length};
