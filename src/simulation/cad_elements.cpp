@@ -217,6 +217,39 @@ private:
   Knots knotsU_, knotsV_;
 };
 
+constexpr int kMostHalvings = 12;
+
+/// Gives an element to `keep`, or its halves where the face leaves it further than is enough, as the mesher's look at a
+/// few places of large triangles may miss. A triangle is cut at the side that the face leaves furthest, or at its
+/// longest where the face leaves all sides by little.
+template <class Keep>
+void addHalves(CadElement& element, const Adaptor3d_Surface& surface, const Deviations& deviations, double enough,
+               int halvings, const Keep& keep) {
+  const double deviation = deviations.of(element);
+  if (halvings == 0 || !(deviation > enough)) return keep(element, deviation);
+  std::array<Vector3, 3> middles;
+  std::array<double, 3> lengths{}, offs{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t l = (k + 1) % 3;
+    const Vector2 uv = (element.parameters[k] + element.parameters[l]) / 2;
+    middles[k] = vector(surface.Value(uv.x(), uv.y()));
+    offs[k] = (middles[k] - (element.corners[k] + element.corners[l]) / 2).norm();
+    lengths[k] = (element.corners[k] - element.corners[l]).norm();
+  }
+  constexpr double kWorthIt = 0.25;
+  const bool bent = *std::ranges::max_element(offs) > kWorthIt * deviation;
+  const auto& sizes = bent ? offs : lengths;
+  const auto k = static_cast<std::size_t>(std::ranges::max_element(sizes) - sizes.begin());
+  const std::size_t l = (k + 1) % 3;
+  const Vector2 middle = (element.parameters[k] + element.parameters[l]) / 2;
+  for (const std::size_t corner : {l, k}) {
+    CadElement half = element;
+    half.corners[corner] = middles[k];
+    half.parameters[corner] = middle;
+    addHalves(half, surface, deviations, enough, halvings - 1, keep);
+  }
+}
+
 }  // namespace
 
 double deviationOf(const CadElement& element, const Geom_Surface& surface) {
@@ -254,11 +287,15 @@ std::vector<CadElement> faceElements(const CadFace& exact, const TopoDS_Face& fa
     element.corners = {a.point, b.point, c.point};
     element.parameters = {a.parameters, b.parameters, c.parameters};
     area += areaInParameters(element);
-    const double deviation = flat ? distanceFrom(exact.forms.sheets.front(), element) : deviations.of(element);
-    // Between a bent border and its chord no triangle lies.
-    element.growth =
-        std::max(kLeastGrowth + kDeviationSafety * deviation, straight ? 0.0 : growthBesideBorders(deflection));
-    elements.push_back(element);
+    const auto keep = [&](CadElement& part, double deviation) {
+      // Between a bent border and its chord no triangle lies.
+      part.growth =
+          std::max(kLeastGrowth + kDeviationSafety * deviation, straight ? 0.0 : growthBesideBorders(deflection));
+      elements.push_back(part);
+    };
+    if (flat) return keep(element, distanceFrom(exact.forms.sheets.front(), element));
+    const int halvings = elements.size() < kMostMeshPoints ? kMostHalvings : 0;
+    addHalves(element, surface, deviations, kInteriorDeflections * deflection, halvings, keep);
   };
   for (int i = 1; i <= mesh->NbTriangles(); ++i) {
     std::array<int, 3> nodes{};

@@ -30,13 +30,10 @@ namespace {
 
 /// The angle only keeps small curves recognizable.
 constexpr double kAngle = 0.5;
-/// Triangles only help to find a face, so its inside need not be meshed as finely as its edges; where a contact needs
-/// it they are halved.
-constexpr double kInterior = 30;
 /// Sides on a bent edge are halved before it matters.
 constexpr double kAlongEdges = 8;
 /// Of a large shape the triangles may be as much coarser: a share of its size.
-constexpr double kAlongEdgesOfSize = 2e-5, kInteriorOfSize = 1e-4;
+constexpr double kAlongEdgesOfSize = 2e-5, kInteriorOfSize = 2e-4;
 /// How far triangles may leave the faces, as a share of the shape's size: at least, as a large shape's need not be as
 /// fine as a small one's, and at most.
 constexpr double kFinestOfSize = 2.5e-6, kCoarsestOfSize = 1e-3;
@@ -216,7 +213,7 @@ std::vector<GridFace> meshFaces(const TopoDS_Shape& shape, double deflection, co
   const double size = sizeOf(shape);
   const double fine = std::min(deflection, coarsest(size));
   parameters.Deflection = std::max(kAlongEdges * fine, kAlongEdgesOfSize * size);
-  parameters.DeflectionInterior = std::max(kInterior * fine, kInteriorOfSize * size);
+  parameters.DeflectionInterior = std::max(kInteriorDeflections * fine, kInteriorOfSize * size);
   parameters.Angle = kAngle;
   parameters.InParallel = options.parallel;
   mesher.Perform(context);

@@ -42,7 +42,7 @@ std::size_t faceCount(const TopoDS_Shape& shape);
 bool isMeshed(const TopoDS_Shape& shape, double deflection);
 
 /// Gives every face triangles, as the mesher of OpenCASCADE makes them: along its edges they leave it by about eight
-/// times `deflection` (mm), within it by up to about thirty times as much (on some free forms even more), in shapes of
+/// times `deflection` (mm), within it by up to about sixty times as much (on some free forms even more), in shapes of
 /// more than about three metres by a share of their size. Faces that it gives up or leaves without triangles get a grid
 /// of cells over their parameters instead: on the surface, but reaching over the border by up to a cell. They are
 /// returned.

@@ -6,6 +6,10 @@ namespace probewright::simulation {
 /// of work. A count of work, not of time: on every machine the same faces are given up.
 inline constexpr int kMostMeshPoints = 50'000;
 
+/// Triangles only help to find a face, so its inside need not be meshed as finely as its edges: so many deflections
+/// they may leave it there. Where a contact needs it they are halved.
+inline constexpr double kInteriorDeflections = 60;
+
 /// Surfaces with at most so many stretches between knots, along u and along v, are sampled between them.
 inline constexpr int kMostStretches = 12;
 
