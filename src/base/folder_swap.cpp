@@ -395,17 +395,28 @@ void clearUp(const fs::path& folder, const std::function<bool(const fs::path&)>&
 
 }  // namespace
 
-FolderLock::FolderLock(fs::path folder, int descriptor) : folder_(std::move(folder)), descriptor_(descriptor) {}
+FolderLock::FolderLock(fs::path folder, int descriptor, int made)
+    : folder_(std::move(folder)), descriptor_(descriptor), made_(made) {}
 FolderLock::FolderLock(FolderLock&& other) noexcept
-    : folder_(std::move(other.folder_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+    : folder_(std::move(other.folder_)), descriptor_(std::exchange(other.descriptor_, -1)), made_(other.made_) {}
 FolderLock::~FolderLock() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+  if (descriptor_ < 0) return;
+  std::error_code error;
+  fs::path folder = folder_;
+  for (int i = 0; i < made_ && fs::is_empty(folder, error) && fs::remove(folder, error); ++i)
+    folder = folder.parent_path();
+  ::close(descriptor_);
 }
 
 Result<FolderLock> FolderLock::take(const fs::path& path, const std::function<void()>& onWait,
                                     const std::function<bool(const fs::path&)>& isOurs, const std::stop_token& stop) {
   if (Result<void> writable = checkWritable(path); !writable) return tl::unexpected(std::move(writable.error()));
   std::error_code error;
+  int made = 0;
+  fs::path missing = fs::weakly_canonical(path, error);
+  if (!missing.has_filename()) missing = missing.parent_path();
+  for (; !missing.empty() && !fs::exists(missing, error); ++made)
+    missing = missing.parent_path();
   fs::create_directories(path, error);
   const fs::path folder = error ? fs::path() : fs::canonical(path, error);
   if (error) {
@@ -414,8 +425,10 @@ Result<FolderLock> FolderLock::take(const fs::path& path, const std::function<vo
   }
   for (bool told = false;;) {
     const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    // Whoever made it may have removed it again, as there was nothing to write.
+    if (descriptor < 0 && errno == ENOENT && fs::create_directories(folder, error)) continue;
     if (descriptor < 0) return failErrno(path, "open this folder");
-    FolderLock lock(folder, descriptor);
+    FolderLock lock(folder, descriptor, made);
     while (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
       if (errno == EINTR) continue;
       if (errno != EWOULDBLOCK) break;  // a file system without locks

@@ -28,6 +28,7 @@ public:
 
   FolderLock(FolderLock&& other) noexcept;
   FolderLock& operator=(FolderLock&&) = delete;
+  /// Removes what take() has made and nobody has put anything into.
   ~FolderLock();
 
   /// The folder, its own name and not a symbolic link to it.
@@ -35,10 +36,11 @@ public:
   int descriptor() const { return descriptor_; }
 
 private:
-  FolderLock(std::filesystem::path folder, int descriptor);
+  FolderLock(std::filesystem::path folder, int descriptor, int made);
 
   std::filesystem::path folder_;
   int descriptor_;
+  int made_ = 0;  ///< so many folders: this one and those above it
 };
 
 /// As long as one lives, nobody swaps the files of its folder: what is read there belongs together. Waits for whoever

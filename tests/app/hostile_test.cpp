@@ -98,6 +98,15 @@ TEST(Hostile, RefusesWhatIsNoFile) {
   const std::string message = run(folder.file("n.h", "0 BEGIN PGM N MM\n1 END PGM N MM\n"), tables);
   EXPECT_THAT(message, HasSubstr("T/TOOL.T: error: this has the name of a table, but it is a folder"));
   EXPECT_THAT(message, HasSubstr("T/PRESET.PR: error: this has the name of a table, but it is a symbolic link"));
+  std::filesystem::remove_all(folder / "T");
+  std::filesystem::create_directories(folder / "T");
+  folder.file("T/TOOL.T", "");
+  folder.file("T/tool.t", "");
+  folder.file("T/notes.txt", "");
+  folder.file("T/NOTES.TXT", "");
+  const std::string twice = run((folder / "n.h").string(), tables);
+  EXPECT_THAT(twice, HasSubstr("error: the control knows this table and "));
+  EXPECT_THAT(twice, ::testing::Not(HasSubstr("NOTES")));
   // What a program names as a mask.
   folder.file("secret.a", "\"SECRET\";\n");
   for (const std::string& mask :

@@ -37,5 +37,40 @@ TEST(FolderLock, KeepsTheMarkOfAnUnfinishedSetThatItCannotRemove) {
   fs::remove_all(parent);
 }
 
+/// Folders that were made for files which could not be written go again, and no other folder does.
+TEST(FolderLock, RemovesTheFoldersThatItHasMadeForNothing) {
+  std::string pattern = (fs::path(::testing::TempDir()) / "probewright-swap-XXXXXX").string();
+  ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
+  const fs::path parent = pattern;
+  const auto take = [](const fs::path& folder) {
+    return FolderLock::take(folder, {}, [](const fs::path&) { return false; });
+  };
+  for (const char* name : {"a/b/c", "a/b/c/", "a"}) {
+    {
+      const auto lock = take(parent / name);
+      ASSERT_TRUE(lock) << name;
+      EXPECT_TRUE(fs::is_directory(parent / name)) << name;
+    }
+    EXPECT_FALSE(fs::exists(parent / "a")) << name;
+    EXPECT_TRUE(fs::exists(parent)) << name;
+  }
+  fs::create_directories(parent / "there");
+  take(parent / "there");
+  EXPECT_TRUE(fs::exists(parent / "there"));
+  {
+    const auto lock = take(parent / "new/out");
+    ASSERT_TRUE(lock);
+    ASSERT_TRUE(swapFiles(*lock, {{"a.txt", Content("text")}}, {}));
+  }
+  EXPECT_TRUE(fs::exists(parent / "new/out/a.txt"));
+  {
+    const auto lock = take(parent / "new/other");
+    ASSERT_TRUE(lock);
+  }
+  EXPECT_FALSE(fs::exists(parent / "new/other"));
+  EXPECT_TRUE(fs::exists(parent / "new"));
+  fs::remove_all(parent);
+}
+
 }  // namespace
 }  // namespace probewright
