@@ -350,6 +350,19 @@ TEST(SinumerikMotion, ToolRadiusCompensationKeepsTheDistance) {
   EXPECT_LT((lastTip(world) - Vector3(-20, -20, 0)).head<2>().norm(), 1e-9);
   EXPECT_LT((tipOf(world, 1) - Vector3(-5, 0, 0)).head<2>().norm(), 1e-9);
 
+  // With G451 outside corners are cut, too, until G450.
+  World sharp;
+  sharp.run("T1 M6\nG0 X-20 Y-20\nF500\nG451\nG41 G1 X0 Y0\nY40\nX40\nY0\nX0\nG40 X-20 Y-20\n");
+  const Vector3 outer[] = {{-5, 0, 0}, {-5, 45, 0}, {45, 45, 0}, {45, -5, 0}, {0, -5, 0}, {-20, -20, 0}};
+  ASSERT_EQ(sharp.machine.moves.size(), 7u);
+  for (std::size_t i = 0; i < 6; ++i)
+    EXPECT_LT((tipOf(sharp, i + 1) - outer[i]).head<2>().norm(), 1e-9) << i << ": " << tipOf(sharp, i + 1).transpose();
+  World rounded;
+  rounded.run("T1 M6\nG0 X-20 Y-20\nF500\nG451\nG450\nG41 G1 X0 Y0\nY40\nX40\nY0\nX0\nG40 X-20 Y-20\n");
+  ASSERT_EQ(rounded.machine.moves.size(), world.machine.moves.size());
+  for (std::size_t i = 0; i < world.machine.moves.size(); ++i)
+    EXPECT_LT((tipOf(rounded, i) - tipOf(world, i)).norm(), 1e-9) << i;
+
   // Inside the square, on the right side: corners are cut, so the path is a square of 30.
   World inside;
   inside.run("T1 M6\nG0 X20 Y20\nF500\nG42 G1 X0 Y10\nY40\nX40\nY0\nX0\nY10\nG40 X20 Y20\n");
