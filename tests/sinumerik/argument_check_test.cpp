@@ -214,10 +214,17 @@ TEST(SinumerikArguments, WhatCannotGoTogetherIsNamed) {
             (Messages{"points 1 and 2 (S_SETV0 to S_SETV3) coincide"}));
   EXPECT_EQ(mistakes("CYCLE961(117,1,1,0,0,9,0,10,5,20,5,,,,,,10,5)"),
             (Messages{"the points of the two edges (S_SETV0 to S_SETV7) do not enclose an angle"}));
+  EXPECT_EQ(mistakes("CYCLE961(117,1,1,0,0,9,6,10,5,28,17,,,,,,10,5)"),
+            (Messages{"the points of the two edges (S_SETV0 to S_SETV7) do not enclose an angle"}))
+      << "both rise by 2 on 3";
+  EXPECT_EQ(mistakes("CYCLE961(117,1,1,0,0,9,6,10,5,28,-7,,,,,,10,5)"), Messages{}) << "one rises, the other falls";
   EXPECT_EQ(mistakes("CYCLE977(1101,1,,1,40,,,8,4,0,-10,50)"),
             (Messages{"S_SZA = 50: the protection zone leaves no room within the set size 40"}));
   EXPECT_EQ(mistakes("CYCLE977(1106,1,,1,,40,30,8,4,0,-10,60,30)"),
             (Messages{"S_SZO = 30: the protection zone leaves no room around the set size 30"}));
+  EXPECT_EQ(mistakes("CYCLE977(1106,1,,1,,40,30,8,4,0,-10,0,0)"), Messages{}) << "a zone of no width is none";
+  EXPECT_EQ(mistakes("CYCLE977(1106,1,,1,,40,30,8,4,0,-10,40.1,30.1)"), Messages{});
+  EXPECT_EQ(mistakes("CYCLE977(1101,1,,1,40,,,8,4,0,-10,39.9)"), Messages{});
   EXPECT_EQ(mistakesIn("CYCLE977(201,,1,1,40,,,8,4,0,,,,,1,\"\")\n"),
             (Messages{"1:36 warning: argument 16 of CYCLE977: S_TNAME names no tool to correct, which only machines "
                       "with unique D numbers can do with"}));

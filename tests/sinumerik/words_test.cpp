@@ -198,7 +198,12 @@ TEST(SinumerikTexts, LengthsAreBounded) {
   EXPECT_EQ(mistake("DEF STRING[99999999999] SS\n"), "a STRING has 1 to 400 characters");
   EXPECT_EQ(mistake("PROC TEST(STRING[0] SS)\n"), "a STRING has 1 to 400 characters");
   EXPECT_EQ(mistake("DEF STRING[255] SS\n"), "");
+  EXPECT_EQ(mistake("DEF STRING[1] SS\nDEF STRING[400] TT\n"), "");
+  EXPECT_EQ(mistake("DEF STRING[401] SS\n"), "a STRING has 1 to 400 characters");
   EXPECT_EQ(World().alarm("DEF INT LENG=-1\nDEF STRING[LENG] SS\n"), "12200");
+  EXPECT_EQ(World().alarm("DEF INT LENG=0\nDEF STRING[LENG] SS\n"), "12200");
+  EXPECT_EQ(World().alarm("DEF INT LENG=401\nDEF STRING[LENG] SS\n"), "12200");
+  EXPECT_EQ(shown("DEF INT LENG=1\nDEF STRING[LENG] SS=\"a\"\nDEF STRING[400*LENG] TT=\"b\"\n", "SS<<TT"), "ab");
   EXPECT_EQ(World().alarm("DEF STRING[9] SS=\"abc\"\nSS=SUBSTR(SS,0,-5)\n"), "14020");
   EXPECT_EQ(shown("DEF STRING[9] SS=\"abc\"\n", "\"<\"<<SUBSTR(SS,-1)<<\">\""), "<>");
 }
