@@ -166,12 +166,14 @@ TEST(Cycle440, ResetsItsResultsAndLeavesTheSpindleRunning) {
   Dice dice(4406);
   Shifting world = shifting(dice);
   world.disc = false;
-  const std::string old = "Q185 = 5\nQ186 = 6\nQ187 = 7\n";
+  const std::string old = "Q184 = 4\nQ185 = 5\nQ186 = 6\nQ187 = 7\nQ188 = 8\n";
   const Words words = {{363, 0}, {364, 4}, {320, 1}, {260, 20}};
   const Ran calibrated = world.bench.runBare("TOOL CALL 9 Z S100\nM4\n" + old + probe(440, words));
   ASSERT_TRUE(calibrated.finished()) << calibrated.why();
   for (int i = 185; i <= 187; ++i)
     EXPECT_EQ(calibrated.q(i), 0);
+  EXPECT_EQ(calibrated.q(184), 4) << "a result of another cycle";
+  EXPECT_EQ(calibrated.q(188), 8) << "a result of another cycle";
   EXPECT_EQ(calibrated.q(110), 1) << "M4 is active";
   const Ran refused = world.bench.runBare(world.before + old + probe(440, with(words, {{363, 1}})));
   EXPECT_EQ(refused.alarm(), "Axis shift not calibrated");

@@ -255,6 +255,8 @@ TEST(Check, KnowsLimitsThatNothingKeeps) {
             std::string::npos);
   EXPECT_EQ(checked(framed(call + inspection421("0", "8.1"))), "");
   EXPECT_EQ(checked(framed(call + inspection421("Q1", "8.1"))), "");
+  EXPECT_EQ(checked(framed(call + inspection421("8.1", "8.1"))), "") << "a part of exactly this size meets them";
+  EXPECT_EQ(checked(framed(call + inspection421("8.1", "8.022"))), "");
 }
 
 TEST(Check, KnowsRotationsThatGoNowhere) {

@@ -188,6 +188,23 @@ TEST(Host, RotaryAxesTurnByDegreesInInchProgramsToo) {
   EXPECT_EQ(steps[3].axes[c], 20);
 }
 
+/// With DR+ from left to right the lower half of the circle; a radius in inches or rounded may be a little too small.
+TEST(Host, ARadiusOfHalfTheDistanceIsHalfACircle) {
+  for (const char* radius : {"+10", "-10", "+9.99"}) {
+    World world;
+    expectFinished(world.run(fmt::format("L X+0 Y+0 R0 F100\nCR X+20 Y+0 R{} DR+", radius)));
+    const auto path = world.path();
+    ASSERT_FALSE(path.empty()) << radius;
+    EXPECT_TRUE(near(path.back(), {20, 0, 0})) << radius;
+    double lowest = 0;
+    for (const auto& place : path) {
+      lowest = std::min(lowest, place.y());
+      EXPECT_NEAR(std::hypot(place.x() - 10, place.y()), 10, 0.02) << radius;
+    }
+    EXPECT_NEAR(lowest, -10, 0.02) << radius;
+  }
+}
+
 TEST(Host, PolarCoordinatesAndArcs) {
   World world;
   expectFinished(world.run("L X+10 Y+0 R0 F100\nCC X+0 Y+0\nLP PR+20 PA+90\nCP PA+180 DR+\nCR X+0 Y+20 R+20 DR-"));
@@ -373,6 +390,8 @@ TEST(Host, AlarmsNameTheReason) {
   EXPECT_THAT(message("TCH PROBE 470 X ~\n Q1=1\n"), HasSubstr("cycle 470 is not available"));
   EXPECT_THAT(message("L X+0 Y+0 FMAX\nCC X+10 Y+0\nC X+5 Y+5 DR+\n"), HasSubstr("beside the circle"));
   EXPECT_THAT(message("L X+0 Y+0 FMAX\nCR X+10 Y+0 R3 DR+\n"), HasSubstr("at least 5"));
+  EXPECT_THAT(message("L X+0 Y+0 FMAX\nCR X+10 Y+0 R4.98 DR+\n"), HasSubstr("at least 5"));
+  EXPECT_THAT(message("L X+0 Y+0 FMAX\nCR X+10 Y+0 R-3 DR+\n"), HasSubstr("at least 5"));
   EXPECT_THAT(message("CYCL DEF 7.0 X\nCYCL DEF 7.1 #3\n"), HasSubstr("datum table"));
   EXPECT_THAT(message("L X+0 Y+0 FMAX\nAPPR LCT X+0 Y+0 R+0 RL F100\nL Y+5\n"), HasSubstr("its own arc"));
   EXPECT_THAT(message("M128\n"), HasSubstr("rotary axes"));

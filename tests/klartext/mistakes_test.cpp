@@ -59,16 +59,22 @@ TEST(Mistakes, OfParameterNumbers) {
 }
 
 TEST(Mistakes, OfFeedsAndTimes) {
-  expectSaid({{"L X+1 F-5", "Feed rate wrong: A feed rate of -5 mm/min is not possible"},
-              {"L X+1 F0.0001", "Feed rate wrong: A feed rate of 0.0001 mm/min is not possible"},
-              {"L X+1 F0.5 M136",
-               "Spindle speed missing: With M136 the feed rate counts per revolution, but the "
-               "spindle has no speed"},
-              {"L X+1 FMAXX", "3:11: this is not a feed rate"},
-              {"L X+1 FMAXM3", "nothing"},
-              {"Q1 = 10 ^ 9\nCYCL DEF 9.0 DWELL TIME\nCYCL DEF 9.1 DWELL Q1",
-               "Dwell time wrong: A dwell time of 1000000000 s is not possible"},
-              {"M140 MB 5 F1", "nothing"}});
+  expectSaid(
+      {{"L X+1 F-5", "Feed rate wrong: A feed rate of -5 mm/min is not possible"},
+       {"L X+1 F0.0001", "Feed rate wrong: A feed rate of 0.0001 mm/min is not possible"},
+       {"L X+1 F0.5 M136",
+        "Spindle speed missing: With M136 the feed rate counts per revolution, but the "
+        "spindle has no speed"},
+       {"L X+1 FMAXX", "3:11: this is not a feed rate"},
+       {"L X+1 FMAXM3", "nothing"},
+       {"Q1 = 10 ^ 9\nCYCL DEF 9.0 DWELL TIME\nCYCL DEF 9.1 DWELL Q1",
+        "Dwell time wrong: A dwell time of 1000000000 s is not possible"},
+       {"Q1 = -0.1\nCYCL DEF 9.0 DWELL TIME\nCYCL DEF 9.1 DWELL Q1",
+        "Dwell time wrong: A dwell time of -0.1 s is not possible"},
+       {"Q1 = 3600.1\nCYCL DEF 9.0 DWELL TIME\nCYCL DEF 9.1 DWELL Q1",
+        "Dwell time wrong: A dwell time of 3600.1 s is not possible"},
+       {"CYCL DEF 9.0 DWELL TIME\nCYCL DEF 9.1 DWELL 0\nCYCL DEF 9.0 DWELL TIME\nCYCL DEF 9.1 DWELL 3600", "nothing"},
+       {"M140 MB 5 F1", "nothing"}});
 }
 
 TEST(Mistakes, OfTexts) {

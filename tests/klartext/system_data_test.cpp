@@ -220,6 +220,7 @@ TEST(SystemData, Texts) {
   EXPECT_EQ(text("SYSSTR( ID10010 NR1 )"), "main.h");
   EXPECT_EQ(text("CFGREAD( KEY_QS1 TAG_\"CfgDisplayLanguage\" ATR_\"ncLanguage\" )"), "ENGLISH");
   EXPECT_EQ(text("CFGREAD( KEY_QS1 TAG_\"CfgDisplayData\" ATR_\"axisDisplayOrder\" IDX1 )"), "Y");
+  EXPECT_EQ(text("CFGREAD( KEY_QS1 TAG_\"CfgDisplayData\" ATR_\"axisDisplayOrder\" IDX0 )"), "X");
   world.control->panel.language = control::DialogLanguage::Swedish;
   EXPECT_EQ(text("CFGREAD( KEY_QS1 TAG_\"CfgDisplayLanguage\" ATR_\"ncLanguage\" )"), "SWEDISH");
   expectFinished(world.run("QS1 = \"\"\nQ1 = CFGREAD( KEY_QS1 TAG_\"CfgTS\" ATR_\"maxTouchFeed\" )\n"));
