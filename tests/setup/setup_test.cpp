@@ -382,6 +382,8 @@ TEST(Setup, AStarIsKnownByItsReach) {
   EXPECT_NEAR(setup->beliefs.tools.at(0).radius, 13.99, 1e-12);
   EXPECT_NEAR(setup->beliefs.tools.at(0).axialRadius, 2, 1e-12);
   EXPECT_FALSE(parseSetup(tool + "star_arm = 2.5\n", "s.toml", diagnostics)) << "the balls of the star overlap";
+  EXPECT_TRUE(parseSetup(tool + "star_arm = 3\n", "s.toml", diagnostics)) << "the least that the advice names";
+  EXPECT_TRUE(parseSetup(tool + "star_arm = 0\n", "s.toml", diagnostics)) << "no star";
 }
 
 }  // namespace

@@ -54,6 +54,27 @@ TEST(ToolDrawing, DrawsRunOutWearAndWhatHasBrokenOffATooth) {
     EXPECT_GE(broken.featureEdges[i].z(), 6 - 1e-5F);
 }
 
+/// The edges of a tool in a holder cannot reach into it, and the shank ends where the holder begins.
+TEST(ToolDrawing, DrawsTheHolderFromItsLowerEndToTheSpindle) {
+  simulation::TrueTool mill = straightMill();
+  mill.cutter.cutLength = 100;
+  mill.cutter.shankRadius = 4;
+  mill.cutter.holderLength = 30;
+  mill.cutter.holderRadius = 20;
+  const reports::Mesh mesh = drawnTool(mill);
+  /// How far from the tool's axis the body reaches at a height.
+  const auto widest = [&](float height) {
+    float found = 0;
+    for (const reports::Vector3f& each : mesh.positions)
+      if (std::abs(each.z() - height) < 1e-4F) found = std::max(found, each.head<2>().norm());
+    return found;
+  };
+  EXPECT_NEAR(widest(50), 20, 1e-3) << "80 mm less the 30 mm of the holder";
+  EXPECT_NEAR(widest(80), 20, 1e-3);
+  const auto highest = std::ranges::max_element(mesh.positions, {}, [](const auto& each) { return each.z(); });
+  EXPECT_NEAR(highest->z(), 80, 1e-4);
+}
+
 /// The edges of an insert run along X and Z through its theoretical tip, which is the origin: the nose touches both.
 TEST(ToolDrawing, DrawsBothEdgesOfAnInsertAndItsNose) {
   simulation::TrueTool tool = straightMill();
