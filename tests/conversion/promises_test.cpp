@@ -470,8 +470,20 @@ TEST(ConvertPromises, NamesWordsOfPathsThatASinumerikDoesNotHave) {
   EXPECT_TRUE(back.notCarriedOver.empty());
   EXPECT_THAT(back.text, HasSubstr("RND R3 F200"));
   EXPECT_THAT(back.text, HasSubstr("CHF 2 F150"));
+  // Where an axis stands: linear axes have numbers, others have not.
+  for (const auto& [axis, index] : {std::pair("X", "IDX1"), std::pair("Y", "IDX2"), std::pair("Z", "IDX3")})
+    EXPECT_THAT(converted(fmt::format("R2=$AA_IW[{}]\n", axis), ProgramLanguage::Sinumerik).text, HasSubstr(index));
+  for (const char* axis : {"A", "B", "C"})
+    EXPECT_FALSE(converted(fmt::format("R2=$AA_IW[{}]\n", axis), ProgramLanguage::Sinumerik).notCarriedOver.empty())
+        << axis;
   // The angles of a tilted plane are the control's own.
-  EXPECT_FALSE(toSinumerik(klartextProgram("Q1 = Q120\n")).notCarriedOver.empty());
+  for (const char* tool : {"Q108 = 5\n", "Q114 = 5\n"})
+    EXPECT_FALSE(toSinumerik(klartextProgram(tool)).notCarriedOver.empty())
+        << "the tool's data are not a program's: " << tool;
+  for (const char* angle : {"Q120", "Q121", "Q122"})
+    EXPECT_FALSE(toSinumerik(klartextProgram(fmt::format("Q1 = {}\n", angle))).notCarriedOver.empty()) << angle;
+  for (const char* result : {"Q115", "Q119", "Q123"})
+    EXPECT_TRUE(toSinumerik(klartextProgram(fmt::format("Q1 = {}\n", result))).notCarriedOver.empty()) << result;
 }
 
 }  // namespace
