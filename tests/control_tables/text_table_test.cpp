@@ -127,6 +127,27 @@ TEST(TextTable, KeepsRightAlignedNumbersRightAligned) {
             "[END]\n");
 }
 
+/// Of the last column nothing says how wide it is; what stands in it does.
+TEST(TextTable, KeepsRightAlignedNumbersOfTheLastColumnRightAligned) {
+  const std::string aligned =
+      "BEGIN A.D MM\n"
+      "D   X         Y\n"
+      "1       12.50   -100.00\n"
+      "2       12.50   -100.00\n"
+      "3       12.50 -100.00\n"
+      "[END]\n";
+  TextTable right = read(aligned);
+  ASSERT_TRUE(right.setNumber("1", "Y", 1.5));
+  ASSERT_TRUE(right.setNumber("2", "Y", -2000.5));
+  EXPECT_EQ(right.bytes(),
+            "BEGIN A.D MM\n"
+            "D   X         Y\n"
+            "1       12.50      1.50\n"
+            "2       12.50  -2000.50\n"
+            "3       12.50 -100.00\n"
+            "[END]\n");
+}
+
 TEST(TextTable, InsertsRowsInOrder) {
   TextTable table = read(plainTable);
   ASSERT_TRUE(table.addRow("5.2"));
@@ -198,7 +219,8 @@ TEST(TextTable, SaysWhatIsWrongWithAFile) {
   EXPECT_THAT(warningOf("BEGIN TOOL.T MM\nT  L  L\n[END]"), HasSubstr("BAD.T:2:7: warning: column L appears twice"));
   EXPECT_THAT(warningOf("BEGIN TOOL.T MM\nT  L\n1  2\n1  3\n[END]"),
               HasSubstr("BAD.T:4:1: warning: row 1 appears twice"));
-  EXPECT_THAT(warningOf("BEGIN TOOL.T MM\nT  L\n   3\n[END]"), HasSubstr("no entry in column T"));
+  EXPECT_THAT(warningOf("BEGIN TOOL.T MM\nT  L\n   3\n[END]"),
+              HasSubstr("BAD.T:3:1: warning: this line has no entry in column T"));
   EXPECT_THAT(warningOf("BEGIN TOOL.T MM\nT    L\n1   +12.5\n[END]"),
               HasSubstr("BAD.T:3:6: warning: an entry reaches across the beginning of column L"));
   EXPECT_THAT(warningOf("BEGIN TOOL.T MM\nT  L\n1  3\n"), HasSubstr("without the line [END]"));

@@ -147,6 +147,16 @@ TEST_F(Configuration, FollowsIncludesCommentsAndContinuedLines) {
   EXPECT_EQ(machine->axes[2].minimum, -77);
 }
 
+TEST_F(Configuration, JoinsAsManyLinesAsAreContinuedAndCountsEach) {
+  const auto machine = read("[KINS]\nKINEMATICS = \\\ntrivkins \\\ncoordinates=XYZ\n" + joints(3) + "# the end \\");
+  ASSERT_TRUE(machine) << said();
+  EXPECT_EQ(machine->axes.size(), 3U);
+  EXPECT_FALSE(
+      read("[TRAJ]\nCOORDINATES = \\\nXY\\\nZA\n[KINS]\nKINEMATICS = trivkins coordinates=XYZA\n" + joints(4)));
+  EXPECT_THAT(said(), HasSubstr("shop.ini:6"));
+  EXPECT_THAT(said(), HasSubstr("does not say where the axis of A lies"));
+}
+
 TEST_F(Configuration, AsksWhereARotaryAxisLies) {
   const std::string ini = "[KINS]\nKINEMATICS = trivkins coordinates=XYZA\n[TRAJ]\nCOORDINATES = XYZA\n" + joints(4);
   EXPECT_FALSE(read(ini));

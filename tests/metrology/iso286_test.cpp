@@ -32,7 +32,7 @@ INSTANTIATE_TEST_SUITE_P(Iso286Part2, PublishedLimits, testing::Values(
     // holes
     Published{10, "H7", 15, 0}, Published{50, "H7", 25, 0}, Published{3, "H7", 10, 0}, Published{3.001, "H7", 12, 0},
     Published{25, "H6", 13, 0}, Published{25, "H8", 33, 0}, Published{25, "H9", 52, 0}, Published{120, "H11", 220, 0},
-    Published{500, "H7", 63, 0}, Published{1, "H13", 140, 0}, Published{400, "H5", 25, 0},
+    Published{10, "H01", 0.4, 0}, Published{10, "H0", 0.6, 0}, Published{10, "H1", 1, 0}, Published{500, "H7", 63, 0}, Published{1, "H13", 140, 0}, Published{400, "H5", 25, 0},
     Published{25, "G7", 28, 7}, Published{100, "F8", 90, 36}, Published{20, "F7", 41, 20}, Published{25, "E9", 92, 40},
     Published{25, "D10", 149, 65}, Published{60, "D9", 174, 100}, Published{8, "C11", 170, 80}, Published{25, "B11", 290, 160},
     Published{25, "A11", 430, 300}, Published{25, "JS7", 10.5, -10.5}, Published{25, "JS9", 26, -26},
@@ -192,6 +192,8 @@ TEST(Refusals, NameWhatIsWrong) {
   EXPECT_EQ(isoTolerance(20, "J9").error().message, "ISO 286 defines no class J9 for 20 mm");
   EXPECT_EQ(isoTolerance(20, "K9").error().message, "ISO 286 defines no class K9 for 20 mm");
   EXPECT_FALSE(isoTolerance(500.1, "H7"));
+  EXPECT_EQ(isoTolerance(10, "H+7").error().message, "'H+7' is not a tolerance class of ISO 286");
+  EXPECT_EQ(isoTolerance(10, "H-7").error().message, "'H-7' is not a tolerance class of ISO 286");
   EXPECT_FALSE(isoTolerance(0, "H7"));
   EXPECT_FALSE(isoTolerance(-10, "H7"));
   EXPECT_FALSE(isoTolerance(std::nan(""), "H7"));
