@@ -27,5 +27,29 @@ TEST(PlaneBeside, IsTheSupportOfTheSolidWhereverThatStands) {
   }
 }
 
+/// The least distance from a plane that turns about an axis, by trying angles, and its direction there.
+TEST(TurnsBehindPlane, IsAsFarAsThePlaneThatComesNearest) {
+  std::mt19937_64 random(12);
+  std::normal_distribution<double> gauss;
+  const auto vector = [&] { return Vector3(gauss(random), gauss(random), gauss(random)); };
+  for (const double angle : {0.3, 1.5, 3.5, 6.0}) {
+    for (int i = 0; i < 30; ++i) {
+      const Plane plane{20 * vector(), vector().normalized()};
+      const Line axis{20 * vector(), vector().normalized()};
+      const Vector3 point = 50 * vector();
+      double least = 1e9;
+      constexpr int tries = 2000;
+      for (int k = 0; k <= tries; ++k) {
+        const Vector3 turned = axis.point + Eigen::AngleAxisd(angle * k / tries, axis.direction) * (point - axis.point);
+        least = std::min(least, plane.normal.dot(turned - plane.point));
+      }
+      const ClosestPoint found = TurnsBehindPlane(plane, axis, angle).closest(point);
+      EXPECT_NEAR(found.distance, least, 1e-3) << angle;
+      EXPECT_NEAR(found.normal.norm(), 1, 1e-12);
+      EXPECT_NEAR((point - found.point).dot(found.normal), found.distance, 1e-9);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace probewright::simulation
