@@ -96,10 +96,21 @@ TEST(CameraRefusals, OfSoftKeysThatThereAreNot) {
   refused("CONFIGURE; DRAW ERROR -1 0 5 5; SAVE AND BACK", "Window outside the image", "-1 0 5 5");
 }
 
+TEST(CameraRefusals, OfNoSensitivityFromTheLeastToTheMost) {
+  CameraBench bench;
+  for (const char* sensitivity : {"0.1", "10"}) {
+    bench.answers({{"601 OS", fmt::format("CONFIGURE; SENSITIVITY {}; SAVE AND BACK", sensitivity)}});
+    const Ran ran = bench.run(local(1, 10));
+    EXPECT_TRUE(ran.finished()) << ran.why();
+    EXPECT_THAT(ran.log("BENCH.OS.VSC"), HasSubstr(fmt::format("sensitivity = {}", sensitivity)));
+  }
+}
+
 TEST(CameraRefusals, OfSoftKeysThatAreInactive) {
   CameraBench bench;
   for (const char* keys : {"DRAW AREA 1 2 30 40", "CONFIRM", "SELECT IMAGE 7", "DELETE IMAGE", "CONFIGURE; BACK",
-                           "CONFIGURE; SENSITIVITY 20", "CONFIGURE; DELETE AREA 1", "CONFIGURE; CONFIGURE"}) {
+                           "CONFIGURE; SENSITIVITY 20", "CONFIGURE; SENSITIVITY 10.1", "CONFIGURE; SENSITIVITY 0.09",
+                           "CONFIGURE; DELETE AREA 1", "CONFIGURE; CONFIGURE"}) {
     bench.answers({{"601 OS", keys}});
     const Ran ran = bench.run(local(1, 10));
     EXPECT_TRUE(ran.finished()) << keys;

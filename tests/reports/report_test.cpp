@@ -249,6 +249,21 @@ TEST(Report, HoldsWhatItsCyclesAloneSay) {
   EXPECT_FALSE(dataOf(reportHtml(cameraJournal(), {}, {})).contains("phrases")) << "the page has these";
 }
 
+TEST(Report, SaysAlarmsInEachLanguageAndLeavesAProgramsOwnWords) {
+  control::Journal journal = settingsJournal();
+  journal.cycles[0].alarm = "Touch probe not ready";
+  const auto alarm = [](const char* text) {
+    return control::EventRecord{control::EventKind::Alarm, {"A.H", 1, 1}, "", text, 0};
+  };
+  journal.events = {alarm("Circle not determined"), alarm("Ask the foreman")};
+  const json words = dataOf(reportHtml(journal, {}, {}))["words"];
+  EXPECT_EQ(words["Touch probe not ready"], json({"Tastsystem nicht bereit", "Щуп не готов", "Avkännarsystem ej klart",
+                                                  "测头未就绪", "Sonda niegotowa"}));
+  EXPECT_EQ(words["Circle not determined"], json({"Kreis nicht bestimmt", "Окружность не определяется",
+                                                  "Cirkel ej bestämd", "圆未确定", "Okrąg nieokreślony"}));
+  EXPECT_FALSE(words.contains("Ask the foreman"));
+}
+
 TEST(Report, HoldsWhatAReplayFollows) {
   records::RunTrace trace;
   trace.files = {"A.H"};

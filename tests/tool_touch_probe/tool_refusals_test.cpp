@@ -85,6 +85,12 @@ TEST(ToolRefusals, OfMachinesThatAreNotReady) {
     nowhere.world.parameter("centerPos.2", "MP6580.2", -470);
     EXPECT_EQ(nowhere.alarm(all[6]), "Touch probe not ready");
 
+    for (const char* neverMeasured : {"calibratedContactRadius1", "calibratedContactRadius2"}) {
+      Refusing half(kind);
+      half.world.parameter(neverMeasured, neverMeasured, 0);
+      EXPECT_EQ(half.alarm(all[0]), "Tool touch probe not calibrated") << neverMeasured;
+    }
+
     Refusing off(kind);
     off.world.toolProbe().switchedOn = false;
     EXPECT_EQ(off.alarm(all[0]), "Touch probe not ready");
