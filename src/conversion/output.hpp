@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +28,8 @@ public:
   /// Lists what of a block is lost or holds only under a condition.
   void list(const language::Block& block, std::string message, std::string advice = {},
             Severity severity = Severity::Warning);
+  /// The same, where the message holds for every block of its kind: once a program.
+  void listOnce(const language::Block& block, const std::string& message, std::string advice = {});
   /// Lists it and leaves it as a comment where it happened.
   void lose(const language::Block& block, const std::string& what);
   /// The block stays as a comment.
@@ -39,6 +42,7 @@ private:
   std::string file_;
   std::vector<std::string> lines_;
   Diagnostics listed_;
+  std::set<std::string> listedOnce_;
 };
 
 }  // namespace probewright::conversion

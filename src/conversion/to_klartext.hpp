@@ -111,6 +111,8 @@ private:
   /// Sets them again.
   void restoreFrame();
   bool isShifted() const;
+  /// Neither shift nor rotation, for certain.
+  bool frameIsNone() const;
   /// Takes shift and rotation back and counts the task without them. False if there are none.
   bool leaveFrame(MeasuringTask& task);
   /// Sets them again; results count in them. `task`: as it was before.
@@ -155,6 +157,8 @@ private:
 
   // planes.cpp
   void swivel(const language::Block& block, const language::CallProgram& call);
+  /// CYCLE800() and _TC = "0": the frames of the program and the rotary axes stay.
+  static bool deselectsPlane(const language::Block& block, const language::CallProgram& call);
 
   // single_touches.cpp
   void measuringBlock(const language::Block& block, const language::Command& command);

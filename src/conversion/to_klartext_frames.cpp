@@ -145,6 +145,10 @@ bool ToKlartext::isShifted() const {
   return std::ranges::any_of(frame_.shift, [](const Quantity& each) { return !(each == 0); });
 }
 
+bool ToKlartext::frameIsNone() const {
+  return frame_.known && !isShifted() && frame_.rotation && *frame_.rotation == 0;
+}
+
 bool ToKlartext::leaveFrame(MeasuringTask& task) {
   requireFrame();
   const bool turned = !(*frame_.rotation == 0);

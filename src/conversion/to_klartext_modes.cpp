@@ -115,7 +115,7 @@ void ToKlartext::follow(const Block& block, Modes& modes) const {
       followTransform(block, *transform, modes);
     } else if (const auto* call = std::get_if<CallProgram>(&instruction)) {
       const std::string_view name = block.at(call->name);
-      if (name == "CYCLE800") {
+      if (name == "CYCLE800" && !deselectsPlane(block, *call)) {
         modes.shift = std::array<double, 3>{};
         modes.rotation = 0;
       }

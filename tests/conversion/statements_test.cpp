@@ -288,7 +288,7 @@ TEST(ConvertMotion, TiltsPlanes) {
       klartextProgram("PLANE SPATIAL SPA+0 SPB+20 SPC+15 TURN FMAX\nL X+10 Y+5 Z+60 R0 FMAX\n");
   const std::string sinumerik = toSinumerik(klartext).text;
   EXPECT_THAT(sinumerik, HasSubstr("CYCLE800(0,\"\",0,27,0,0,0,15,20,0,0,0,0,1)\n"));
-  EXPECT_THAT(toKlartext(sinumerik).text, HasSubstr("PLANE SPATIAL SPA+0 SPB+20 SPC+15 TURN FMAX\n"));
+  EXPECT_THAT(toKlartext(sinumerik).text, HasSubstr("PLANE SPATIAL SPA+0 SPB+20 SPC+15 TURN FMAX SEQ+\n"));
   // About X, the new Y and the new Z.
   EXPECT_THAT(toKlartext("CYCLE800(0,\"\",0,57,0,0,0,90,90,0,0,0,0,1)\nM30\n").text, HasSubstr("SPC+90"));
   EXPECT_THAT(toKlartext("CYCLE800()\nM30\n").text, HasSubstr("PLANE RESET"));

@@ -45,6 +45,7 @@ struct Twin {
   control::Journal journal;
   std::map<std::string, std::string> files;
   machine::AxisPositions axes;  ///< at the end
+  double seconds = 0;           ///< that the run takes on the machine
 
   /// A result of the last cycle that has it, by its name on the control.
   double result(std::string_view name) const {
@@ -86,6 +87,7 @@ inline Twin twinOf(setup::SimulatedRun run) {
   }
   twin.machineFromWorkpiece = outcome.machineFromWorkpiece.value_or(Pose::Identity());
   if (run.machine) twin.axes = run.machine->position();
+  if (run.machine) twin.seconds = run.machine->seconds();
   twin.journal = std::move(outcome.journal);
   twin.files = std::move(outcome.files);
   return twin;
@@ -109,9 +111,17 @@ inline Twin runSinumerik(const std::string& text, const PlantedPart& part) {
 }
 
 /// Counts for the exit code. How far the surfaces of these worlds are off is known: both probes look far enough for
-/// them.
+/// them. So is that either posture of the rotary axes reaches what is measured.
 inline bool isLoss(const Diagnostic& listed) {
-  return listed.severity != Severity::Note && listed.message.find("looks for the surface") == std::string::npos;
+  return listed.severity != Severity::Note && listed.message.find("looks for the surface") == std::string::npos &&
+         listed.message.find("SEQ") == std::string::npos;
+}
+
+/// A message of what is listed contains the text.
+inline bool lists(const conversion::Conversion& conversion, std::string_view text) {
+  return std::ranges::any_of(conversion.notCarriedOver, [&](const Diagnostic& each) {
+    return each.severity != Severity::Note && each.message.find(text) != std::string::npos;
+  });
 }
 
 /// The program in the other language, run in the same world.
