@@ -50,6 +50,11 @@ bool Quantity::operator==(const Quantity& other) const {
   return difference.isNumber() && std::abs(difference.number()) < 1e-9;
 }
 
+bool isBeyondATurn(const Quantity& degrees) {
+  constexpr double turn = 360;
+  return degrees.isNumber() && std::abs(degrees.number()) >= turn;
+}
+
 std::string numberText(double number) {
   const double rounded = std::round(number * 1e9) / 1e9;
   if (std::abs(rounded) < 1e-4) {  // the shortest text would have an exponent

@@ -36,6 +36,14 @@ private:
   std::vector<Term> terms_;  ///< no two with the same expression, none with factor 0
 };
 
+/// A position of a rotary axis that a HEIDENHAIN control drives to as it stands, while a SINUMERIK counts an axis that
+/// turns endlessly within one turn.
+bool isBeyondATurn(const Quantity& degrees);
+inline constexpr const char* beyondATurn =
+    "beyond a whole turn a HEIDENHAIN control counts on, a SINUMERIK counts a rotary axis that turns endlessly from 0 "
+    "again";
+inline constexpr const char* withinATurn = "give a position within one turn, or turn by incremental positions";
+
 /// Text of the quantity as an expression that either language reads: "12.5", "R5-2", "0.5*(R1+R2)".
 std::string expressionText(const Quantity& quantity);
 /// The same with blanks around operators, as Klartext formulas are written.

@@ -45,7 +45,7 @@ void ToSinumerik::survey() {
   Diagnostics ignored;
   for (const auto& other : job_.others)
     for (BlockPosition at = other->begin(); other->parse(at, block, ignored); at = block.next)
-      surveyRows(block);
+      surveyOther(block);
   for (BlockPosition at = program_.begin(); program_.parse(at, block, result_.mistakes); at = block.next) {
     surveyRows(block);
     for (const VariableRef& variable : block.variables) {
@@ -116,6 +116,20 @@ void ToSinumerik::surveyCentre(const Block& block, const Move& move) {
   oneCentre_ = oneCentre_ && whole && *surveyedCentre_ == point;
 }
 
+void ToSinumerik::surveyOther(const Block& block) {
+  surveyRows(block);
+  for (const Instruction& instruction : block.instructions) {
+    constexpr int feedPerRevolution = 136;
+    const auto* function = std::get_if<MachineFunction>(&instruction);
+    const auto* move = std::get_if<Move>(&instruction);
+    othersFeedPerRevolution_ =
+        othersFeedPerRevolution_ || (function != nullptr && function->number == feedPerRevolution);
+    othersCompensate_ = othersCompensate_ || (move != nullptr && (move->compensation == RadiusCompensation::Left ||
+                                                                  move->compensation == RadiusCompensation::Right));
+  }
+  compensates_ = compensates_ || othersCompensate_;
+}
+
 Conversion ToSinumerik::run() {
   survey();
   if (!hasErrors(result_.mistakes)) {
@@ -151,7 +165,10 @@ std::vector<std::string> ToSinumerik::head() const {
   lines.insert(lines.end(), callStack_.begin(), callStack_.end());
   if (job_.shares) lines.insert(lines.begin() + 1, std::string(sharedParametersRemark));
   const bool ofCaller = job_.called && !callsTools_;
-  lines.push_back(fmt::format("{}G90 G40 {} G94", ofCaller ? "" : "G17 ", unitWord()));
+  // What the caller has left in effect holds in a program that it calls.
+  const bool keepsCompensation = job_.called && othersCompensate_, keepsFeed = job_.called && othersFeedPerRevolution_;
+  lines.push_back(fmt::format("{}G90{} {}{}", ofCaller ? "" : "G17 ", keepsCompensation ? "" : " G40", unitWord(),
+                              keepsFeed ? "" : " G94"));
   return lines;
 }
 
@@ -288,7 +305,13 @@ void ToSinumerik::toolCall(const Block& block, const ToolCall& call) {
   if (named || call.number.present()) {
     const std::string tool = formulas_.formula(block, named ? call.name : call.number);
     out_.line(named || !call.number.isLiteral() ? fmt::format("T={}", tool) : fmt::format("T{}", tool));
-    out_.line("M6 D1");
+    spindle_ = calledBy(block, call);
+    if (spindle_) {
+      out_.line(spindle_ == Spindle::Empty ? "M6 D0" : "M6 D1");
+    } else {  // tool 0 has no cutting edge
+      out_.line("M6 D0");
+      callEdgeAgain();
+    }
   }
   std::string technology;
   if (call.spindleSpeed.present()) {

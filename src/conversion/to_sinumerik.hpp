@@ -32,6 +32,8 @@ private:
   // to_sinumerik.cpp: the program and its flow
   void survey();
   void surveyRows(const language::Block& block);
+  /// A block of another program of the job.
+  void surveyOther(const language::Block& block);
   void surveyCentre(const language::Block& block, const language::Move& move);
   void write(const language::Block& block);
   std::vector<std::string> head() const;
@@ -69,9 +71,14 @@ private:
   };
   void transform(const language::Block& block, const language::Transform& transform);
   void writeFrame(const Frame& frame);
+  /// What TOOL CALL has brought into the spindle.
+  enum class Spindle : std::uint8_t { Empty, Tool, Unset };
+  /// Empty where only the running program knows it.
+  static std::optional<Spindle> calledBy(const language::Block& block, const language::ToolCall& call);
   /// What is in effect and stays so until a block changes it; empty where it depends on the way that led there.
   struct Modes {
     std::optional<char> toolAxis = 'Z';
+    std::optional<Spindle> spindle;
     std::optional<std::array<double, 3>> shift = std::array<double, 3>{};  ///< X, Y, Z
     std::optional<double> rotation = 0;
     std::optional<int> row;
@@ -115,6 +122,8 @@ private:
   // to_sinumerik_moves.cpp
   void move(const language::Block& block, const language::Move& move);
   void setCentre(const language::Block& block, const language::Move& move);
+  /// The cutting edge is in effect again, if there is a tool.
+  void callEdgeAgain();
   void moveOnMachine(const language::Block& block, const language::Move& move);
   std::string axisWords(const language::Block& block, const language::Move& move);
   std::string centreWords() const;
@@ -221,7 +230,8 @@ private:
   bool listedRow99_ = false;
   bool compensates_ = false;
   bool callsTools_ = false;
-  bool sharesText_ = false;  ///< it is listed that texts are not shared
+  bool othersFeedPerRevolution_ = false, othersCompensate_ = false;  ///< other programs of the job
+  bool sharesText_ = false;                                          ///< it is listed that texts are not shared
   /// Subprograms that return early, or that jumps lead into or out of, are not sections: the program keeps a stack of
   /// its calls.
   bool keepsStack_ = false;
@@ -233,6 +243,7 @@ private:
 
   // Where the text has come to.
   char toolAxis_ = 'Z';
+  std::optional<Spindle> spindle_;
   std::array<std::optional<Quantity>, 3> position_;  ///< of the tip; as the SINUMERIK program drives
   std::array<std::optional<Quantity>, 2> centre_;
   std::optional<std::array<std::optional<double>, 2>> surveyedCentre_;

@@ -4,6 +4,9 @@
 
 #include "base/text.hpp"
 #include "conversion/to_sinumerik.hpp"
+#include "cycles/catalogue.hpp"
+#include "language/program_language.hpp"
+#include "language/sinumerik/check.hpp"
 
 /// Labels, jumps, subprograms and calls of HEIDENHAIN programs in the language of a SINUMERIK.
 namespace probewright::conversion {
@@ -139,13 +142,35 @@ bool ToSinumerik::cyclesAnswerInOtherUnit() const {
          });
 }
 
+namespace {
+
+/// The name alone in a block calls a program, and not a cycle of the control.
+bool callsProgramByName(const std::string& name) {
+  if (cycles::sinumerikCycle(name) != nullptr || sinumerik::isMeasuringCycle(name) || sinumerik::isSkippedCycle(name) ||
+      sinumerik::isCycleWithoutEffect(name) || name == "CYCLE800")
+    return false;
+  Block block;
+  Diagnostics mistakes;
+  const auto program = programFromText("", name, ProgramLanguage::Sinumerik);
+  program->parse(program->begin(), block, mistakes);
+  if (!mistakes.empty() || block.instructions.size() != 1) return false;
+  const auto* call = std::get_if<CallProgram>(&block.instructions.front());
+  return call != nullptr && block.at(call->name) == name;
+}
+
+}  // namespace
+
 void ToSinumerik::callProgram(const Block& block, const CallProgram& call) {
   if (call.name.length == 0) throw NotCarriedOver("a program whose name is computed has no twin on a SINUMERIK");
   const std::string name = withoutEnding(block.at(call.name));
   if (name.size() < 2 || identifierFrom(name) != upperCase(name) || isDigit(name[0]))
     throw NotCarriedOver(fmt::format("{} is not a valid name of a SINUMERIK program", name),
                          "names begin with two letters or an underscore and have letters, digits and underscores");
+  if (!callsProgramByName(upperCase(name)))
+    throw NotCarriedOver(fmt::format("{} means something else in a SINUMERIK program than a call", name),
+                         "give the program another name, which begins with two letters");
   out_.line(upperCase(name));
+  spindle_.reset();
   // G700 and G710 of the called program stay in effect after it, its INCH or MM does not.
   if (unitOf(upperCase(name)) != program_.unit()) out_.line(std::string(unitWord()));
   out_.list(block, fmt::format("program {} is called as it stands", upperCase(name)),

@@ -138,10 +138,18 @@ void ToSinumerik::transform(const Block& block, const Transform& transform) {
   forgetPosition();
 }
 
+std::optional<ToSinumerik::Spindle> ToSinumerik::calledBy(const Block& block, const ToolCall& call) {
+  if (call.name.present()) return Spindle::Tool;
+  const auto number = literalOf(block, call.number);
+  if (!number) return std::nullopt;
+  return *number == 0 ? Spindle::Empty : Spindle::Tool;
+}
+
 void ToSinumerik::follow(const Block& block, Modes& modes) {
   for (const Instruction& instruction : block.instructions) {
-    if (const auto* tool = std::get_if<ToolCall>(&instruction); tool != nullptr && tool->axis != 0) {
-      modes.toolAxis = tool->axis;
+    if (const auto* tool = std::get_if<ToolCall>(&instruction)) {
+      if (tool->axis != 0) modes.toolAxis = tool->axis;
+      if (tool->name.present() || tool->number.present()) modes.spindle = calledBy(block, *tool);
     }
     if (const auto* cycle = std::get_if<CycleCall>(&instruction)) {
       constexpr std::uint32_t numberInTable = 305;
@@ -200,6 +208,7 @@ bool ToSinumerik::agree(Modes& with, const Modes& other) {
     if (one != two) one.reset();
   };
   meet(with.toolAxis, other.toolAxis);
+  meet(with.spindle, other.spindle);
   meet(with.shift, other.shift);
   meet(with.rotation, other.rotation);
   meet(with.row, other.row);
@@ -256,6 +265,7 @@ void ToSinumerik::surveyModes() {
     program_.parse(graph_.blocks()[i].position, block, ignored);
     Modes modes;
     modes.toolAxis = 'U';  // values that no block sets
+    modes.spindle = Spindle::Unset;
     modes.shift = std::array<double, 3>{0.0123456789, 0.0123456789, 0.0123456789};
     modes.rotation = 0.0123456789;
     modes.row = -1;
@@ -286,6 +296,7 @@ void ToSinumerik::adopt(const Block& block) {
   if (found == entries_.end()) return;
   const Modes& modes = found->second;
   axisDoubtful_ = !modes.toolAxis;
+  spindle_ = modes.spindle;
   if (modes.toolAxis && (*modes.toolAxis == 'X' || *modes.toolAxis == 'Y' || *modes.toolAxis == 'Z')) {
     toolAxis_ = *modes.toolAxis;
   }

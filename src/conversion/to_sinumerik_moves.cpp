@@ -64,6 +64,8 @@ std::string ToSinumerik::axisWords(const Block& block, const Move& move) {
     const std::string name = addressName(word.address);
     const auto index = planeIndex(word.address);
     const bool incremental = word.mode == WordMode::Incremental;
+    if (!incremental && word.address >= 'A' && word.address <= 'C' && isBeyondATurn(value))
+      out_.list(block, beyondATurn, withinATurn);
     if (incremental && index && !position_[*index] && besidePath_ && *index < 2) {
       out_.list(block, fmt::format("I{} counts from where the measuring cycle has left the probe", name),
                 "give the coordinate as an absolute one");
@@ -141,8 +143,16 @@ void ToSinumerik::moveOnMachine(const Block& block, const Move& move) {
     text += fmt::format(" {}", addressWord(addressName(word.address), quantity(block, word.value)));
   }
   out_.line(fmt::format("SUPA {}{} D0{}", move.rapid ? "G0" : "G1", text, feedWord(block, move)));
-  out_.line("D1");
+  callEdgeAgain();
   forgetPosition();
+}
+
+void ToSinumerik::callEdgeAgain() {
+  if (spindle_ == Spindle::Empty) return;
+  if (spindle_) return out_.line("D1");
+  out_.line("IF $P_TOOLNO<>0");
+  out_.line("  D1");
+  out_.line("ENDIF");
 }
 
 void ToSinumerik::move(const Block& block, const Move& move) {
