@@ -38,6 +38,11 @@ public:
   std::string variable(const language::Block& block, const language::VariableRef& variable);
   std::string formula(const language::Block& block, const language::Operand& operand);
   Quantity quantity(const language::Block& block, const language::Operand& operand);
+  /// The formula of what the variable has after `operand` was assigned to it: an INT rounds, a BOOL is 0 or 1.
+  std::string assigned(const language::Block& block, const language::VariableRef& variable,
+                       const language::Operand& operand);
+  /// The program defines a variable, or an array, of this type: "INT".
+  void declare(std::string_view name, std::string_view type);
 
   /// A number or a parameter with its sign, as coordinates are written: "+5", "-Q3". Everything else is computed in
   /// front of the block into a parameter of the converter's own.
@@ -77,6 +82,12 @@ private:
   /// The parameter of a user variable, or of an element of an array by numbers.
   std::string userVariable(const language::Block& block, const language::VariableRef& variable);
   std::string call(const language::Block& block, const language::Node& node);
+  /// REAL of all that is not a variable of a type.
+  language::sinumerik::Type typeOf(const language::Block& block, const language::VariableRef& variable) const;
+  /// The value is whole whatever the program computes.
+  bool isWhole(const language::Block& block, const language::Operand& operand) const;
+  /// The value is 0 or 1.
+  bool isTruth(const language::Block& block, const language::Operand& operand) const;
   std::string systemDatum(const language::Block& block, const language::VariableRef& variable);
   std::string helper(const std::string& formula);
   /// A system datum in a parameter; the same one again if it was just read.
@@ -90,6 +101,7 @@ private:
   const GlobalData* globalData_;
   std::vector<std::string> globalValues_;
   std::map<std::string, std::string, std::less<>> names_;
+  std::map<std::string, language::sinumerik::Type, std::less<>> types_;  ///< of variables that the program defines
   std::set<std::string, std::less<>> reserved_;
   int nextNumber_ = 1600;
   int nextText_ = 1600;

@@ -49,6 +49,13 @@ void ToKlartext::label(const std::string& name) {
 void ToKlartext::goTo(const std::string& label) { line(fmt::format("FN 9: IF +0 EQU +0 GOTO LBL \"{}\"", label)); }
 
 std::string ToKlartext::comparable(const Block& block, const Operand& operand) {
+  const Node* node = operand.node >= 0 ? &block.nodes[static_cast<std::size_t>(operand.node)] : nullptr;
+  if (node != nullptr && (node->operation == Operation::Text || node->operation == Operation::Concatenate)) {
+    const std::string text = formulas_.formula(block, operand);
+    const std::string own = formulas_.define(fmt::format("compared {}", text), KlartextFormulas::Holds::Text);
+    line(fmt::format("{} = {}", own, text));
+    return fmt::format("+{}", own);
+  }
   return formulas_.value(quantity(block, operand));
 }
 
@@ -338,8 +345,9 @@ void ToKlartext::carryOver(const Block& block, const Structured& structured) {
     }
     case Structure::For: {
       Open opened{.kind = structured.kind, .begin = named("FOR"), .end = named("ENDFOR")};
-      opened.counter = formulas_.variable(block, block.variables[structured.variable]);
-      line(fmt::format("{} = {}", opened.counter, formulas_.formula(block, structured.from)));
+      const VariableRef& counter = block.variables[structured.variable];
+      opened.counter = formulas_.variable(block, counter);
+      line(fmt::format("{} = {}", opened.counter, formulas_.assigned(block, counter, structured.from)));
       label(opened.begin);
       const std::string last = comparable(block, structured.to);
       line(fmt::format("FN 11: IF +{} GT {} GOTO LBL \"{}\"", opened.counter, last, opened.end));

@@ -29,7 +29,7 @@ void ToKlartext::assign(const Block& block, const Assign& assign) {
     throw NotCarriedOver(fmt::format("{} cannot be written in Klartext", block.at(variable.name)));
   }
   const std::string name = formulas_.variable(block, variable);
-  const std::string formula = formulas_.formula(block, assign.value);
+  const std::string formula = formulas_.assigned(block, variable, assign.value);
   line(fmt::format("{} = {}", name, formula));
   const std::string own(variable.space == VariableSpace::User ? block.at(variable.name) : std::string_view());
   if (formulas_.isGlobal(own) && changedGlobals_.insert(own).second) {
@@ -138,6 +138,7 @@ void ToKlartext::define(const Block& block, const Command& command) {
   const std::string_view type = block.at(command.text);
   if (type == "FRAME" || type == "AXIS") throw NotCarriedOver("variables for frames and axes have no twin in Klartext");
   const bool isText = type == "STRING" || type == "CHAR";
+  formulas_.declare(own, type);
   std::vector<std::string> elements = {own};
   for (std::size_t i = 0; i < 3 && variable.index[i].present(); ++i) {
     constexpr double most = 100;  // there are no more free parameters
@@ -154,7 +155,7 @@ void ToKlartext::define(const Block& block, const Command& command) {
   std::vector<std::string> values;
   for (const Word& word : words) {
     if (word.address == addressOf("LEN")) continue;
-    values.push_back(word.value.present() ? formulas_.formula(block, word.value) : std::string());
+    values.push_back(word.value.present() ? formulas_.assigned(block, variable, word.value) : std::string());
     if (word.address == addressOf("REP")) values.resize(elements.size(), values.back());
   }
   values.resize(elements.size());
