@@ -52,7 +52,11 @@ std::optional<std::size_t> ToKlartext::planeIndex(std::uint32_t address) const {
   return std::nullopt;
 }
 
-void ToKlartext::surveyShift(const Block& block, const Instruction& instruction) {
+void ToKlartext::surveyJob(const Block& block, const Instruction& instruction) {
+  const auto* modal = std::get_if<Modal>(&instruction);
+  const auto* command = std::get_if<Command>(&instruction);
+  feedsPerRevolution_ = feedsPerRevolution_ || (modal != nullptr && block.at(modal->name) == "G95");
+  orientsSpindle_ = orientsSpindle_ || (command != nullptr && block.at(command->name) == "SPOS");
   const auto* transform = std::get_if<Transform>(&instruction);
   const bool shifts = transform != nullptr && block.at(transform->name).ends_with("TRANS");
   for (std::uint32_t i = 0; shifts && i < transform->words.count; ++i) {
@@ -87,7 +91,7 @@ void ToKlartext::survey() {
     for (const Instruction& instruction : block.instructions) {
       const auto* function = std::get_if<MachineFunction>(&instruction);
       changesTool_ = changesTool_ || (function != nullptr && function->number == 6);
-      surveyShift(block, instruction);
+      surveyJob(block, instruction);
       moved = moved || std::holds_alternative<Move>(instruction) || std::holds_alternative<CallProgram>(instruction);
       units_.add(unitOf(block, instruction));
       if (unitOf(block, instruction) == SelectedUnit::Inch) movesBeforeUnit_ = movesBeforeUnit_ || moved;
@@ -99,7 +103,7 @@ void ToKlartext::survey() {
     Units& units = unitsOf_[upperCase(other->name())];
     for (BlockPosition at = other->begin(); other->parse(at, block, ignored); at = block.next) {
       for (const Instruction& instruction : block.instructions) {
-        surveyShift(block, instruction);
+        surveyJob(block, instruction);
         units.add(unitOf(block, instruction));
         ofOthers.add(unitOf(block, instruction));
       }
@@ -322,8 +326,8 @@ void ToKlartext::modal(const Block& block, const Modal& modal) {
     out_.list(block, "what moves above this block counts as the control begins, in an INCH program in inches",
               "select inches at the beginning of the program");
   }
-  static constexpr std::array<std::string_view, 12> silent = {"G60", "G64",    "G71", "G710",  "G70", "G700",
-                                                              "G94", "DIAMOF", "CFC", "CFTCP", "G9",  "G601"};
+  static constexpr std::array<std::string_view, 11> silent = {"G60",    "G64", "G71",   "G710", "G70", "G700",
+                                                              "DIAMOF", "CFC", "CFTCP", "G9",   "G601"};
   if (std::ranges::find(silent, name) != silent.end()) return;
   if (name == "G90" || name == "G91") {
     incremental_ = name == "G91";
@@ -344,6 +348,8 @@ void ToKlartext::modal(const Block& block, const Modal& modal) {
     compensation_ = name == "G40" ? "R0" : name == "G41" ? "RL" : "RR";
   } else if (name == "G95") {
     line("M136");
+  } else if (name == "G94") {
+    if (feedsPerRevolution_) line("M137");
   } else if (name == "TRAORI") {
     line("M128");
   } else if (name == "TRAFOOF") {
@@ -361,7 +367,7 @@ void ToKlartext::modal(const Block& block, const Modal& modal) {
   }
 }
 
-void ToKlartext::machineFunction(const Block&, const MachineFunction& function) {
+void ToKlartext::machineFunction(const Block& block, const MachineFunction& function) {
   if (function.argument.present() || function.number < 0) {
     throw NotCarriedOver("M functions of further spindles have no twin in Klartext");
   }
@@ -374,8 +380,16 @@ void ToKlartext::machineFunction(const Block&, const MachineFunction& function) 
     case 7:
     case 8:
     case 9:
-    case 19:
       return line(fmt::format("M{}", function.number));
+    case 19:
+      if (orientsSpindle_) {
+        out_.list(
+            block,
+            "M19 orients the spindle to the angle of the setting data, on a HEIDENHAIN control to that of the last "
+            "cycle 13",
+            "write the angle with SPOS");
+      }
+      return line("M19");
     default:
       throw NotCarriedOver(fmt::format("M{} means something else on a HEIDENHAIN control, or nothing", function.number),
                            "see the machine's own list of M functions");
@@ -393,6 +407,29 @@ void ToKlartext::blank(const Block& block, const Command& command) {
   if (!box) throw NotCarriedOver("this blank has no twin in Klartext", "it is a picture only");
   line(fmt::format("BLK FORM 0.1 Z X{} Y{} Z{}", number(8), number(9), number(6)));
   line(fmt::format("BLK FORM 0.2 X{} Y{} Z{}", number(10), number(11), number(5)));
+}
+
+void ToKlartext::orientSpindle(const Block& block, std::span<const Word> words) {
+  if (words.size() > 1) {
+    throw NotCarriedOver("SPOS of a spindle by its number has no twin in Klartext",
+                         "write SPOS= where the spindle with the tool is meant");
+  }
+  if (words[0].mode == WordMode::Incremental)
+    throw NotCarriedOver("SPOS=IC() turns on from where the spindle stands, cycle 13 takes absolute angles",
+                         "write the angle itself");
+  Quantity angle = quantity(block, words[0].value);
+  // Cycle 13 takes angles from 0 to 360 degrees.
+  constexpr double turn = 360;
+  if (!angle.isNumber()) {
+    const std::string own = formulas_.define("angle of the spindle");
+    line(fmt::format("{} = {}", own, spacedExpressionText(angle)));
+    line(fmt::format("{0} = {0} - {1} * INT ({0} / {1})", own, turn));
+    line(fmt::format("{0} = {0} + {1} * INT ((1 - SGN {0}) / 2)", own, turn));
+    angle = Quantity::of(own);
+  } else if (angle.number() < 0 || angle.number() > turn) {
+    angle = angle.number() - turn * std::floor(angle.number() / turn);
+  }
+  writeWhole({"CYCL DEF 13.0 ORIENTATION", fmt::format("CYCL DEF 13.1 ANGLE {}", formulas_.value(angle)), "M19"});
 }
 
 void ToKlartext::command(const Block& block, const Command& command) {
@@ -419,17 +456,20 @@ void ToKlartext::command(const Block& block, const Command& command) {
     return writeWhole({"CYCL DEF 9.0 DWELL TIME",
                        fmt::format("CYCL DEF 9.1 DWELL {}", formulas_.unsignedValue(quantity(block, words[0].value)))});
   }
-  if (name == "SPOS" && !words.empty()) {
-    const std::string angle = formulas_.value(quantity(block, words[0].value));
-    return writeWhole({"CYCL DEF 13.0 ORIENTATION", fmt::format("CYCL DEF 13.1 ANGLE {}", angle), "M19"});
-  }
+  if (name == "SPOS" && !words.empty()) return orientSpindle(block, words);
   // What a preset is set to acts at once.
   if (name == "G" && trimmed(block.at(block.source), lineBlanks) == selectedAgain) return;
   if (name == "PROC") {
-    if (block.at(command.text).find("REAL") == std::string_view::npos &&
-        block.at(command.text).find("INT") == std::string_view::npos)
-      return;
-    throw NotCarriedOver("parameters of subprograms have no twin in Klartext", "pass values in Q parameters");
+    const std::string_view header = block.at(command.text);
+    const std::size_t open = std::min(header.find('('), header.size()), close = header.find(')', open);
+    if (close != std::string_view::npos && !trimmed(header.substr(open + 1, close - open - 1), lineBlanks).empty())
+      throw NotCarriedOver("parameters of subprograms have no twin in Klartext", "pass values in Q parameters");
+    const std::string attributes = fmt::format("{} ", header);
+    if (attributes.find(" SAVE ") != std::string::npos) {
+      out_.list(block, "SAVE gives the G functions and frames of the caller back at the return, Klartext does not",
+                "program what is to be in effect after each call");
+    }
+    return;
   }
   throw NotCarriedOver(fmt::format("{} has no twin in Klartext", name), "write it by hand");
 }

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,8 @@ public:
 private:
   // to_klartext.cpp: the program, tools, frames
   void survey();
-  void surveyShift(const language::Block& block, const language::Instruction& instruction);
+  /// What other programs of the job may leave in effect, too.
+  void surveyJob(const language::Block& block, const language::Instruction& instruction);
   enum class SelectedUnit { None, Millimetre, Inch };
   static SelectedUnit unitOf(const language::Block& block, const language::Instruction& instruction);
   struct Units {
@@ -47,6 +49,8 @@ private:
   void modal(const language::Block& block, const language::Modal& modal);
   void machineFunction(const language::Block& block, const language::MachineFunction& function);
   void command(const language::Block& block, const language::Command& command);
+  /// SPOS. `words`: the angle, then the number of the spindle if it stands there.
+  void orientSpindle(const language::Block& block, std::span<const language::Word> words);
   void blank(const language::Block& block, const language::Command& command);
   std::string numbered() const;
 
@@ -275,6 +279,8 @@ private:
   bool measuresAsCycles_ = false;  ///< measuring blocks stand for cycles 3 and 4, with what leads the probe back
   std::map<std::uint64_t, Beside> besides_;  ///< the same
   std::array<bool, 3> shiftsEver_{};         ///< X, Y, Z
+  bool feedsPerRevolution_ = false;          ///< G95 stands in the program or in another one of the job
+  bool orientsSpindle_ = false;              ///< the same of SPOS
 
   // Where the text has come to.
   struct Frame {

@@ -262,6 +262,15 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
     call.numbers[std::string(parameter->name)] = quantity(block, word.value);
   }
   if (call.cycle == "CYCLE150") return measuringLog(block, call);
+  if (const int plane = call.has("_DMODE") ? call.digit("_DMODE", 1) : 0; plane >= 1 && plane <= 3) {
+    const char toolAxis = "ZYX"[plane - 1];
+    if (toolAxis != toolAxis_ || axisDoubtful_) {
+      throw NotCarriedOver(fmt::format("_DMODE: this call measures in the plane of G{}, a touch probe cycle in that of "
+                                       "the tool axis",
+                                       16 + plane),
+                           fmt::format("program G{} before it, and 0 in the units of _DMODE", 16 + plane));
+    }
+  }
   rely(block, axisDoubtful_, "the tool axis (G17, G18, G19)");
   if (call.cycle == "CYCLE971") return toolMeasurement(block, call);
   rely(block, logDoubtful_, "the measuring log (CYCLE150)");

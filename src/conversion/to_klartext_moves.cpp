@@ -23,12 +23,34 @@ const Word* find(std::span<const Word> words, std::string_view address) {
   return found == words.end() ? nullptr : &*found;
 }
 
+/// DC of rotary axes, which M126 and M127 say for all of them. Throws NotCarriedOver for ways that they do not tell.
+bool goesShortestWay(std::span<const Word> words) {
+  const auto isRotary = [](const Word& word) { return word.address >= 'A' && word.address <= 'C'; };
+  const auto goes = [&](WordMode mode) {
+    return std::ranges::any_of(words, [&](const Word& word) { return isRotary(word) && word.mode == mode; });
+  };
+  if (goes(WordMode::DirectPositive) || goes(WordMode::DirectNegative)) {
+    throw NotCarriedOver("ACP and ACN say which way a rotary axis turns, which has no twin in Klartext",
+                         "write DC for the shortest way, or IC with the angle to turn by");
+  }
+  if (!goes(WordMode::DirectShortest)) return false;
+  const bool other = std::ranges::any_of(
+      words, [&](const Word& word) { return isRotary(word) && word.mode != WordMode::DirectShortest; });
+  if (other) {
+    throw NotCarriedOver("M126 is for all rotary axes of a block, DC for one of them",
+                         "move the rotary axes in blocks of their own");
+  }
+  return true;
+}
+
 }  // namespace
 
 std::string ToKlartext::coordinate(const Block& block, const Word& word) {
   const Quantity value = quantity(block, word.value);
   rely(block, incrementalDoubtful_ && word.mode == WordMode::Plain, "G90 or G91");
   const bool incremental = word.mode == WordMode::Incremental || (word.mode == WordMode::Plain && incremental_);
+  if (!incremental && word.address >= 'A' && word.address <= 'C' && isBeyondATurn(value))
+    out_.list(block, beyondATurn, withinATurn);
   if (std::exchange(besideMeasured_, besideMeasured_ && incremental) && incremental) {
     out_.list(block, "this counts from where the probe was touched, but the stylus has been retracted",
               "give the coordinate as an absolute one");
@@ -81,6 +103,7 @@ void ToKlartext::move(const Block& block, const Move& move) {
       throw NotCarriedOver(fmt::format("{} in a motion block has no twin in Klartext", address));
     }
   }
+  const bool shortest = goesShortestWay(words);
   const auto given = [&](std::size_t index) { return find(words, axis(index)) != nullptr; };
   if (!onMachine && given(2) && withoutLength_ != std::optional(false) && !callsEdge(block)) {
     out_.list(block, "with D0 heights count without the length of the tool, on a HEIDENHAIN control always with it",
@@ -97,6 +120,7 @@ void ToKlartext::move(const Block& block, const Move& move) {
   }
   std::string ending;
   if (move.feed.present()) ending = feedWord(block, move.feed);
+  if (shortest) line("M126");
   switch (motion_) {
     case MoveKind::Rapid:
     case MoveKind::Linear: {
@@ -139,6 +163,7 @@ void ToKlartext::move(const Block& block, const Move& move) {
   if (const Word* chamfer = find(words, "CHR")) {
     line(fmt::format("CHF {}{}", formulas_.unsignedValue(quantity(block, chamfer->value)), slow));
   }
+  if (shortest) line("M127");
 }
 
 void ToKlartext::arc(const Block& block, const Move& move, bool clockwise) {
