@@ -60,7 +60,7 @@ TEST(FolderLock, RemovesTheFoldersThatItHasMadeForNothing) {
   {
     const auto lock = take(parent / "new/out");
     ASSERT_TRUE(lock);
-    ASSERT_TRUE(swapFiles(*lock, {{"a.txt", Content("text")}}, {}));
+    ASSERT_TRUE(swapFiles(*lock, {{"a.txt", [](const Sink& sink) { sink("text"); }}}, {}));
   }
   EXPECT_TRUE(fs::exists(parent / "new/out/a.txt"));
   {
