@@ -93,6 +93,40 @@ Handle(Geom_Curve) curveWithoutLimits(const Handle(Geom_Curve) & curve) {
   return plain;
 }
 
+/// The ranges of a surface's parameters; of splines, between their ends.
+struct ParameterRanges {
+  Vector2 low, high;
+
+  explicit ParameterRanges(const Geom_Surface& surface) {
+    surface.Bounds(low.x(), high.x(), low.y(), high.y());
+    constexpr double kEndless = 2e100;
+    if (surface.IsUPeriodic()) low.x() = -kEndless, high.x() = kEndless;
+    if (surface.IsVPeriodic()) low.y() = -kEndless, high.y() = kEndless;
+  }
+  Vector2 nearest(const Vector2& uv) const { return uv.cwiseMax(low).cwiseMin(high); }
+};
+
+/// True if an edge runs where its spline goes on beyond its ends, as its own curve in space tells: that of a torus
+/// whose circle begins elsewhere than the face.
+bool isMeantBeyond(const ParameterRanges& ranges, const TopoDS_Edge& edge, const Geom2d_Curve& parameters, double first,
+                   double last, const GeomAdaptor_Surface& surface) {
+  double begin = 0, end = 0;
+  const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, begin, end);
+  if (curve.IsNull() || begin != first || end != last) return false;
+  bool isBeyond = false;
+  for (const double share : {0.0, 0.21, 0.5, 0.79, 1.0}) {
+    const double t = first + share * (last - first);
+    const gp_Pnt2d p = parameters.Value(t);
+    const Vector2 uv(p.X(), p.Y()), inside = ranges.nearest(uv);
+    const gp_Pnt place = curve->Value(t), clamped = surface.Value(inside.x(), inside.y());
+    if (uv == inside || clamped.Distance(place) <= kBorderTolerance) continue;
+    if (surface.Value(uv.x(), uv.y()).Distance(place) > std::max(kBorderTolerance, BRep_Tool::Tolerance(edge)))
+      return false;
+    isBeyond = true;
+  }
+  return isBeyond;
+}
+
 /// The points of an edge's parameter curve on a face, in the direction in which the wire runs.
 std::vector<Vector2> borderPoints(const TopoDS_Edge& edge, const TopoDS_Face& face, const Geom_Surface& surface,
                                   const GeomAdaptor_Surface& quick) {
@@ -101,15 +135,14 @@ std::vector<Vector2> borderPoints(const TopoDS_Edge& edge, const TopoDS_Face& fa
   const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, first, last);
   std::vector<Vector2> points;
   if (curve.IsNull()) return points;
-  // Splines go on beyond their ends, but not as anybody meant them to.
-  Vector2 low, high;
-  surface.Bounds(low.x(), high.x(), low.y(), high.y());
+  // Splines go on beyond their ends, but seldom as anybody meant them to.
+  const ParameterRanges ranges(surface);
+  const bool beyond = isMeantBeyond(ranges, edge, *curve, first, last, quick);
   const Geom2dAdaptor_Curve quickCurve(curve);
   const auto at = [&](double t) {
     const gp_Pnt2d p = quickCurve.Value(t);
-    const double u = surface.IsUPeriodic() ? p.X() : std::clamp(p.X(), low.x(), high.x());
-    const double v = surface.IsVPeriodic() ? p.Y() : std::clamp(p.Y(), low.y(), high.y());
-    return Vector2(u, v);
+    const Vector2 uv(p.X(), p.Y());
+    return beyond ? uv : ranges.nearest(uv);
   };
   Handle(Geom2d_Curve) plain = curve;
   if (const auto trimmed = Handle(Geom2d_TrimmedCurve)::DownCast(plain)) plain = trimmed->BasisCurve();

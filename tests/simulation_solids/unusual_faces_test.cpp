@@ -6,13 +6,17 @@
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepBuilderAPI_NurbsConvert.hxx>
+#include <BRepCheck_Analyzer.hxx>
 #include <BRepLib.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeRevol.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
+#include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
 #include <GC_MakeArcOfCircle.hxx>
 #include <GC_MakeSegment.hxx>
 #include <Geom2d_Circle.hxx>
@@ -25,18 +29,22 @@
 #include <Geom_RectangularTrimmedSurface.hxx>
 #include <Geom_SurfaceOfLinearExtrusion.hxx>
 #include <Geom_SurfaceOfRevolution.hxx>
+#include <Geom_ToroidalSurface.hxx>
 #include <Geom_TrimmedCurve.hxx>
 #include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
 #include <TColgp_Array1OfPnt.hxx>
 #include <TColgp_Array2OfPnt.hxx>
+#include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Wire.hxx>
 #include <ctime>
+#include <gp_Ax3.hxx>
 #include <gp_Pln.hxx>
+#include <numbers>
 
 #include "oracle.hpp"
 #include "simulation/cad_solid.hpp"
@@ -379,6 +387,36 @@ TEST(LemonsAndApples, OfStepFilesAreNamedBecauseReadersMixThemUp) {
   EXPECT_THAT(remarksOn(BRepPrimAPI_MakeTorus(10, 10).Shape()), HasSubstr("horn torus"));
   EXPECT_THAT(remarksOn(BRepPrimAPI_MakeTorus(10, 5).Shape()), Not(HasSubstr("turned about an axis")));
   EXPECT_THAT(remarksOn(BRepPrimAPI_MakeSphere(10).Shape()), Not(HasSubstr("turned about an axis")));
+}
+
+/// A circle turned about an axis, from any angle on, as a spline: where that closes it begins at an angle of its own,
+/// and the face goes on beyond its ends by what it begins earlier.
+TEST(UnusualFaces, GoOnBeyondTheEndsOfTheirSplinesWhereTheirEdgesDo) {
+  constexpr double kTorus = 20, kTube = 1.5, kTurn = 2 * std::numbers::pi;
+  int beyond = 0;
+  for (const double start : {0.0, 1.0, 1.5332, 2.2, 3.0, 6.0}) {
+    const Handle(Geom_ToroidalSurface) torus = new Geom_ToroidalSurface(gp_Ax3(gp::XOY()), kTorus, kTube);
+    const TopoDS_Face face =
+        BRepBuilderAPI_MakeFace(torus, start, start + kTurn, 0, std::numbers::pi, Precision::Confusion()).Face();
+    const TopoDS_Shape spline = BRepBuilderAPI_NurbsConvert(face, true).Shape();
+    if (!BRepCheck_Analyzer(spline).IsValid()) continue;  // of some angles OpenCASCADE makes a face without an inside
+    TopExp_Explorer faces(spline, TopAbs_FACE);
+    double u0 = 0, u1 = 0, v0 = 0, v1 = 0, first = 0, last = 0, low = 0, high = 0;
+    BRepTools::UVBounds(TopoDS::Face(faces.Current()), u0, u1, v0, v1);
+    const Handle(Geom_Surface) surface = BRep_Tool::Surface(TopoDS::Face(faces.Current()));
+    surface->Bounds(first, last, low, high);
+    if (!surface->IsUPeriodic() && (u0 < first - 0.01 || u1 > last + 0.01)) ++beyond;
+    const auto solid = cadSolid(spline);
+    ASSERT_TRUE(solid);
+    // Closely about where the face begins.
+    for (double angle = start - 0.1; angle < start + kTurn - 0.1; angle += angle < start + 0.1 ? 0.004 : 0.3) {
+      const Vector3 crest(kTorus * std::cos(angle), kTorus * std::sin(angle), 0);
+      const auto contact = (*solid)->firstContact(crest + 10 * Vector3::UnitZ(), crest, 0.4);
+      ASSERT_TRUE(contact) << start << " " << angle;
+      EXPECT_NEAR(contact->ballCentre.z(), kTube + 0.4, 1e-6) << start << " " << angle;
+    }
+  }
+  EXPECT_GT(beyond, 0) << "no spline ends within its face";
 }
 
 }  // namespace
