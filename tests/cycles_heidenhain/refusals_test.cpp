@@ -242,6 +242,24 @@ TEST(DatumTable, TakesTheFeatureSeenFromThePreset) {
   }
 }
 
+/// Y does not fit into its column: X, which would, stays as it was, and there is no row 3.
+TEST(DatumTable, TakesAllOfAFeatureOrNothing) {
+  Bench bench = holeBench();
+  const TableFolder folder(bench);
+  const Words words = with(preset412, {{303, 0}, {305, 3}, {331, 1}, {332, -2}, {381, 0}});
+  const auto runWith = [&](std::string_view row) {
+    folder.put("ZERO.D", fmt::format("BEGIN ZERO .D MM\nNR X         Y    Z         \n{}[END]\n", row));
+    return bench.run("SEL TABLE \"ZERO.D\"\n" + probe(412, words));
+  };
+  const Ran known = runWith("3  +7        +8   +9        \n");
+  expectRefused(known, "Table write error", "column Y");
+  EXPECT_EQ(known.cell("ZERO.D", "3", "X"), 7);
+  EXPECT_EQ(known.cell("ZERO.D", "3", "Y"), 8);
+  const Ran added = runWith("1  +7        +8   +9        \n");
+  expectRefused(added, "Table write error", "column Y");
+  EXPECT_FALSE(added.table("ZERO.D").hasRow("3"));
+}
+
 TEST(Inspection, StopsOutOfToleranceWithEverythingWritten) {
   const Words words = with(inspect421, {{275, 29.95}, {276, 29.9}, {281, 1}, {309, 1}, {330, 5}});
   const Ran ran = holeBench().run(probe(421, words));

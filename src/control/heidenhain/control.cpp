@@ -53,6 +53,18 @@ void Control::note(const TypedTable& table, const std::string& row, Column colum
   journal.write({table.table().name(), fmt::format("row {}, column {}", row, column.name()), before, after});
 }
 
+void Control::writeNumbers(const std::vector<NumberCell>& cells) {
+  std::map<TypedTable*, TypedTable> changed;
+  for (const NumberCell& cell : cells) {
+    TypedTable& table = changed.try_emplace(&cell.table, cell.table).first->second;
+    check(table.setNumber(cell.row, cell.column, cell.value));
+  }
+  for (auto& [table, content] : changed)
+    std::swap(*table, content);
+  for (const NumberCell& cell : cells)
+    note(cell.table, cell.row, cell.column, changed.at(&cell.table).text(cell.row, cell.column));
+}
+
 void Control::writeNumber(TypedTable& table, const std::string& row, NumberColumn column, double value) {
   const std::string before = table.text(row, column);
   check(table.setNumber(row, column, value));

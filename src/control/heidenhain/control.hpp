@@ -144,6 +144,16 @@ public:
   /// Hands the active kinematics to the channel. To be called after any change of it.
   void applyKinematics();
 
+  /// A number to be written into a table: mm, degrees, mm/min.
+  struct NumberCell {
+    TypedTable& table;
+    std::string row;  ///< is added where the table does not have it
+    NumberColumn column;
+    double value;
+  };
+  /// Writes cells that belong together and records what changed. Throws Alarm, with nothing written, if a table refuses
+  /// one of them.
+  void writeNumbers(const std::vector<NumberCell>& cells);
   /// Write a cell (numbers in mm, degrees, mm/min) and record what changed. Throw Alarm if the table refuses it.
   void writeNumber(TypedTable& table, const std::string& row, NumberColumn column, double value);
   void writeText(TypedTable& table, const std::string& row, Column column, const std::string& value);

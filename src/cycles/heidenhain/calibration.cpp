@@ -257,7 +257,7 @@ void storeRadius(Context& context, const CalibratedRadius& calibrated) {
   auto& tools = control.tables.tools;
   const std::string& tool = control.tool.row;
   Rows rows = {row("R", tools.numberOr(tool, "R", 0), calibrated.radius)};
-  control.writeNumber(tools, tool, "R", calibrated.radius);
+  std::vector<Control::NumberCell> cells = {{tools, tool, "R", calibrated.radius}};
   if (calibrated.centreOffset) {
     const Vector2 offset = inSpindle(context, *calibrated.centreOffset);
     const bool inProbeTable = control.isTNC640();
@@ -268,9 +268,10 @@ void storeRadius(Context& context, const CalibratedRadius& calibrated) {
     for (std::size_t i = 0; i < 2; ++i) {
       const double value = offset[static_cast<Eigen::Index>(i)];
       rows.push_back(row(names[i].name(), table.numberOr(key, names[i], 0), value));
-      control.writeNumber(table, key, names[i], value);
+      cells.push_back({table, key, names[i], value});
     }
   }
+  control.writeNumbers(cells);
   control.refreshTool();
   if (!keepsLog(context)) return;
   logPasses(context, calibrated);
@@ -290,8 +291,7 @@ void storeLength(Context& context, double length) {
   const std::string& tool = control.tool.row;
   Rows rows = {row("L", tools.numberOr(tool, "L", 0), length)};
   if (const double before = tools.numberOr(tool, "DL", 0); before != 0) rows.push_back(row("DL", before, 0));
-  control.writeNumber(tools, tool, "L", length);
-  control.writeNumber(tools, tool, "DL", 0);
+  control.writeNumbers({{tools, tool, "L", length}, {tools, tool, "DL", 0}});
   control.refreshTool();
   if (!keepsLog(context)) return;
   addToHtmlLog(context, {"", "Nominal"}, {{"Reference point for length", millimetres(context.q(434))}});

@@ -185,8 +185,7 @@ void run(Context& context, const Arguments&) {
     status = std::max(status, found);
     screen += fmt::format("{}\n  {}{}\n", nominal.name(), formatSigned(*value, 4), statusMark(mode == 0 ? 0 : found));
     if (mode == 0 && settings.entersMeasured) {
-      control.writeNumber(table, row, nominal, *value);
-      control.writeNumber(table, row, delta, 0);
+      control.writeNumbers({{table, row, nominal, *value}, {table, row, delta, 0}});
     } else if (mode == 1) {
       if (settings.entersChecked) control.writeNumber(table, row, delta, deviation);
       context.result(result, deviation, {.nominal = 0.0});

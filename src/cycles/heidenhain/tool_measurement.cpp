@@ -351,8 +351,7 @@ int ToolMeasurement::enter(const ToolDimension& dimension, Of of) {
     status = std::max(status, toolStatus(tooth - nominal, wear, breakage));
   if (request_.mode == 0) {
     if (!settings_.entersMeasured) return status;
-    control.writeNumber(tools, row, entries.nominal, value);
-    control.writeNumber(tools, row, entries.delta, 0);
+    control.writeNumbers({{tools, row, entries.nominal, value}, {tools, row, entries.delta, 0}});
   } else {
     context_.result(entries.result, value - nominal, {.nominal = 0.0});
     if (request_.mode == 1 && settings_.entersChecked) control.writeNumber(tools, row, entries.delta, value - nominal);

@@ -132,20 +132,11 @@ control::heidenhain::TypedTable& activeDatumTable(Context& context) {
   return found->second;
 }
 
-control::heidenhain::TypedTable& datumTableWithRow(Context& context, int row) {
-  auto& table = activeDatumTable(context);
-  const Result<void> added = table.ensureRow(std::to_string(row));
-  if (!added) throw Alarm("Table write error", added.error().message, added.error().advice);
-  return table;
-}
-
 /// Row 0 stands for the preset that is set at once, whatever Q303 says: so the examples of both controls.
 bool setsPresetAtOnce(Context& context) { return context.option(305) == 0; }
 
 void writeDatumRow(Context& context, int row, const NewPreset& preset) {
   Control& control = context.control();
-  auto& table = datumTableWithRow(context, row);
-  const std::string key = std::to_string(row);
   const auto& plane = control.coordinates.plane;
   const PartInMachine inMachine = context.channel().machineFromProgram(plane.xyzFromPlane(preset.measured));
   if (preset.rotation) {
@@ -160,12 +151,14 @@ void writeDatumRow(Context& context, int row, const NewPreset& preset) {
   if (coordinates.tilt) shifted = shifted * coordinates.workpiece.matrix(plane) * Eigen::Affine3d(*coordinates.tilt);
   const Vector3 feature = shifted.inverse() * inMachine.vector();
   constexpr std::array<NumberColumn, 3> names = {"X", "Y", "Z"};
+  std::vector<Control::NumberCell> cells;
   for (std::size_t i = 0; i < 3; ++i) {
     const int axis = i == 0 ? plane.main : i == 1 ? plane.minor : plane.tool;
-    if (preset.wish[i]) {
-      control.writeNumber(table, key, names[static_cast<std::size_t>(axis)], feature[axis] - *preset.wish[i]);
-    }
+    if (!preset.wish[i]) continue;
+    cells.push_back({activeDatumTable(context), std::to_string(row), names[static_cast<std::size_t>(axis)],
+                     feature[axis] - *preset.wish[i]});
   }
+  control.writeNumbers(cells);
 }
 
 }  // namespace
@@ -232,13 +225,12 @@ void copyActivePresetTo0(Context& context, Control::PresetChange change) {
 
 void writeDatumAngle(Context& context, std::size_t axis, double degrees) {
   const int row = context.option(305);
-  auto& table = datumTableWithRow(context, row);
   const auto column = NumberColumn::named(context.channel().description().axes[axis].name);
-  context.control().writeNumber(table, std::to_string(row), column, degrees);
+  context.control().writeNumber(activeDatumTable(context), std::to_string(row), column, degrees);
 }
 
 void addDatumAngle(Context& context, std::size_t axis, int row, double degrees) {
-  auto& table = datumTableWithRow(context, row);
+  auto& table = activeDatumTable(context);
   const std::string key = std::to_string(row);
   const auto column = NumberColumn::named(context.channel().description().axes[axis].name);
   context.control().writeNumber(table, key, column, table.numberOr(key, column, 0) + degrees);
