@@ -3,6 +3,8 @@
 #include "cycles/heidenhain/registry.hpp"
 #include "cycles_heidenhain/table_folder.hpp"
 #include "cycles_heidenhain/worlds.hpp"
+#include "language/klartext/check.hpp"
+#include "language/klartext/program.hpp"
 
 /// What the page of every cycle refuses, cycle by cycle through the whole catalogue.
 namespace probewright::testing_support {
@@ -70,6 +72,8 @@ std::string block(const CycleDefinition& cycle, ControlKind kind) {
   }
   // Its points span a plane square to the tool axis.
   if (cycle.number == 1420) words = with(words, {{372, -3}});
+  // Its points lie beside each other along the main axis.
+  if (cycle.number == 1410) words = with(words, {{372, 2}});
   return probe(cycle.number, words, textsOf(cycle));
 }
 
@@ -218,6 +222,71 @@ TEST(EveryPage, KeepsTheOldMisalignmentCyclesOutOfTiltedPlanes) {
   const Ran old = emptyBench(older).run("PLANE SPATIAL SPA+0 SPB+10 SPC+0 STAY\n" +
                                         block(cycles::heidenhain::findEntry(403)->definition, older));
   EXPECT_EQ(old.alarm(), "Tilted working plane not permitted") << old.why();
+}
+
+/// Values that cannot go together: the check names them as numbers, and the run refuses them before the first touch.
+TEST(EveryPage, NamesGeometriesThatDetermineNothingBeforeTheyAreTouched) {
+  struct Case {
+    int cycle;
+    Words words;
+    std::string alarm, part;
+  };
+  const std::vector<Case> cases = {
+      {400, {{263, 1}, {265, 1}, {264, 5}, {266, 9}, {272, 2}}, "Edge not determined", "coincide"},
+      {400, {{263, 1}, {265, 7}, {264, 5}, {266, 5}, {272, 1}}, "Edge not determined", "coincide"},
+      {403, {{263, 1}, {265, 1}, {264, 5}, {266, 5}, {272, 3}}, "Edge not determined", "coincide"},
+      {420, {{263, 1}, {265, 7}, {264, 5}, {266, 9}, {272, 3}}, "Angle not determined", "Q272 = 3"},
+      {401, {{268, 1}, {269, 2}, {270, 1}, {271, 2}}, "Angle not determined", "centres coincide"},
+      {402, {{268, 1}, {269, 2}, {270, 1}, {271, 2}}, "Angle not determined", "centres coincide"},
+      {414, {{263, 1}, {296, 1}}, "Corner not determined", "share a coordinate"},
+      {414, {{264, 3}, {297, 3}}, "Corner not determined", "share a coordinate"},
+      {414, {{326, 0}}, "Corner not determined", "Q326"},
+      {414, {{327, 0}}, "Corner not determined", "Q327"},
+      {418, {{268, 1}, {269, 2}, {316, 1}, {317, 2}}, "Intersection not determined", "1 and 3"},
+      {418, {{270, 1}, {271, 2}, {318, 1}, {319, 2}}, "Intersection not determined", "2 and 4"},
+      {418,
+       {{268, 0}, {269, 0}, {270, 0}, {271, 9}, {316, 20}, {317, 0}, {318, 20}, {319, 9}},
+       "Intersection not determined",
+       "parallel"},
+      {444, {{581, 0}, {582, 0}, {583, 0}}, "Surface normal wrong", "no length"},
+      {1410, {{372, 1}, {1101, 4}, {1104, 4}}, "Angle not determined", "coincide"},
+      {1410, {{372, -2}, {1100, 4}, {1103, 4}}, "Angle not determined", "coincide"},
+      {1410, {{372, 3}, {1121, 1}}, "Probing direction not permitted", "tool axis"},
+      {1411, {{1119, 0}}, "Angular length wrong", "Q1119"},
+      {1411, {{1116, 0}}, "Diameter wrong", "larger than 0"},
+      {1411, {{1117, 0}}, "Diameter wrong", "larger than 0"},
+      {1411, {{1100, 3}, {1101, 4}, {1103, 3}, {1104, 4}}, "Angle not determined", "coincide"},
+      {1420,
+       {{372, -3}, {1100, 0}, {1101, 0}, {1103, 9}, {1104, 9}, {1106, 18}, {1107, 18}},
+       "Plane wrongly defined",
+       "straight line"},
+  };
+  for (const Case& one : cases) {
+    SCOPED_TRACE(fmt::format("cycle {}: {}", one.cycle, one.part));
+    const CycleDefinition& cycle = cycles::heidenhain::findEntry(one.cycle)->definition;
+    Words words;
+    for (const Parameter& parameter : cycle.parameters) {
+      if (parameter.controls.contains(newer) && parameter.kind != cycles::ValueKind::Text)
+        words.emplace_back(parameter.address, sensible(parameter));
+    }
+    std::string program = probe(one.cycle, with(words, one.words), textsOf(cycle));
+    language::klartext::KlartextProgram read("a.h",
+                                                   "BEGIN PGM A MM\nTOOL CALL 1 Z\n" + program + "END PGM A MM\n");
+    const Diagnostics mistakes = language::klartext::checkProgram(read, newer);
+    EXPECT_TRUE(std::ranges::any_of(mistakes, [&](const Diagnostic& mistake) {
+      return mistake.severity == Severity::Error && mistake.message.find(one.part) != std::string::npos;
+    }));
+    const auto [address, value] = one.words.front();
+    const std::string written = fmt::format("Q{}={:+.6f}", address, value);
+    ASSERT_NE(program.find(written), std::string::npos) << program;
+    program.replace(program.find(written), written.size(), fmt::format("Q{}=+Q1", address));
+    const Ran computed = emptyBench(newer).run(fmt::format("Q1 = {}\n", value) + program);
+    EXPECT_EQ(computed.alarm(), one.alarm) << computed.why();
+    EXPECT_NE(computed.why().find(one.part), std::string::npos) << computed.why();
+    ASSERT_FALSE(computed.outcome.journal.cycles.empty());
+    EXPECT_TRUE(computed.cycle().touches.empty());
+    EXPECT_TRUE(computed.cycle().writes.empty());
+  }
 }
 
 TEST(EveryPage, RefusesGeometriesThatDetermineNothing) {

@@ -67,7 +67,7 @@ TEST(Cycle403, RefusesAxesThatDoNotFit) {
   }
   Bench plain;
   plain.preset(1, {0, 0, -400});
-  expectRefused(plain.run(probe(403, with(alongToolAxis, {{312, 0}, {272, 2}}))), "Rotary axis not available",
+  expectRefused(plain.run(probe(403, with(alongToolAxis, {{312, 0}, {272, 1}}))), "Rotary axis not available",
                 "no rotary table");
 }
 

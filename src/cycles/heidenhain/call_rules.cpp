@@ -18,8 +18,23 @@ std::optional<double> CallRules::number(std::uint32_t address) const {
   return found && !found->isText ? std::optional(found->number) : std::nullopt;
 }
 
+std::optional<Eigen::VectorXd> CallRules::numbers(std::initializer_list<std::uint32_t> addresses) const {
+  Eigen::VectorXd all(static_cast<Eigen::Index>(addresses.size()));
+  Eigen::Index at = 0;
+  for (const std::uint32_t address : addresses) {
+    const auto one = number(address);
+    if (!one) return std::nullopt;
+    all[at++] = *one;
+  }
+  return all;
+}
+
 void CallRules::add(std::uint32_t parameter, std::string message, std::string advice, Severity severity) {
-  mistakes_.push_back({parameter, severity, std::move(message), std::move(advice)});
+  mistakes_.push_back({parameter, severity, std::move(message), std::move(advice), {}});
+}
+
+void CallRules::refuse(std::string alarm, std::uint32_t parameter, std::string message, std::string advice) {
+  mistakes_.push_back({parameter, Severity::Error, std::move(message), std::move(advice), std::move(alarm)});
 }
 
 namespace {

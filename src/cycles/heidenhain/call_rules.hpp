@@ -1,6 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <functional>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,6 +20,7 @@ struct CallMistake {
   std::uint32_t parameter = 0;  ///< the one to look at
   Severity severity = Severity::Error;
   std::string message, advice;
+  std::string alarm;  ///< with which the run refuses the call as it begins; empty: the cycle has words of its own
 };
 
 /// What a cycle's own rules look at and complain to (Entry::rules).
@@ -31,8 +34,12 @@ public:
   std::optional<Argument> value(std::uint32_t address) const;
   /// Its number, where it is known and one.
   std::optional<double> number(std::uint32_t address) const;
+  /// The numbers of several parameters in this order, where all of them are known.
+  std::optional<Eigen::VectorXd> numbers(std::initializer_list<std::uint32_t> addresses) const;
 
   void add(std::uint32_t parameter, std::string message, std::string advice, Severity severity = Severity::Error);
+  /// An error that is the alarm of the run, too.
+  void refuse(std::string alarm, std::uint32_t parameter, std::string message, std::string advice);
   /// A lower limit above the upper one means something in this cycle.
   void allowCrossedLimits() { crossedLimits_ = true; }
 

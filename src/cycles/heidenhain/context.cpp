@@ -186,6 +186,18 @@ void Context::log(const std::string& name, const std::string& text) {
   if (std::ranges::find(record().logFiles, name) == record().logFiles.end()) record().logFiles.push_back(name);
 }
 
+namespace {
+
+/// Throws what the rules of the cycle refuse.
+void requireSoundCall(const Arguments& arguments, ControlKind kind) {
+  const KnownValue known = [&](std::uint32_t address) { return std::optional(arguments.at(address)); };
+  for (const CallMistake& mistake : callMistakes(arguments.definition(), kind, known)) {
+    if (!mistake.alarm.empty()) throw Alarm(mistake.alarm, mistake.message, mistake.advice);
+  }
+}
+
+}  // namespace
+
 void runCycle(Control& control, const Entry& entry, const Arguments& arguments, const SourcePlace& place) {
   const Diagnostics mistakes = check(arguments, control.kind());
   if (!mistakes.empty()) throw Alarm("Cycle parameter wrong", mistakes.front().message, mistakes.front().advice);
@@ -193,6 +205,7 @@ void runCycle(Control& control, const Entry& entry, const Arguments& arguments, 
   Context context(control, entry, arguments, place);
   try {
     context.requireConditions();
+    requireSoundCall(arguments, control.kind());
     entry.run(context, arguments);
   } catch (const Alarm& alarm) {
     context.record().alarm = alarm.code().empty() ? alarm.text() : alarm.code() + ": " + alarm.text();

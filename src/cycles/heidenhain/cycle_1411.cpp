@@ -2,12 +2,14 @@
 
 #include "control/alarm.hpp"
 #include "cycles/fit_records.hpp"
+#include "cycles/heidenhain/call_rules.hpp"
 #include "cycles/heidenhain/circle_measurement.hpp"
 #include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/object_probing.hpp"
 #include "cycles/heidenhain/rotation_parameters.hpp"
 #include "cycles/heidenhain/rotation_transfer.hpp"
 #include "metrology/fits.hpp"
+#include "metrology/tolerance.hpp"
 
 namespace probewright::cycles::heidenhain {
 namespace {
@@ -68,20 +70,29 @@ Side sideOf(int geometry, std::size_t object) {
 double stepAngle(Context& context) {
   const double whole = context.q(1119);
   const int count = context.option(423);
-  if (std::abs(whole) < 1e-6) {
-    throw control::Alarm("Angular length wrong", "Q1119 = 0 puts all touches into one place",
-                         "enter up to 360 degrees");
-  }
   return std::abs(whole) == 360 ? whole / count : whole / (count - 1);
 }
 
-NominalValue diameterOf(Context& context, int parameter) {
-  NominalValue diameter = nominalValue(context, parameter);
-  if (!diameter.nominal || diameter.semiAutomatic || diameter.actual || !(*diameter.nominal > 0)) {
-    throw control::Alarm("Diameter wrong", "The diameter of an object must be known and larger than 0",
-                         "enter it as a number, or as a text with a tolerance");
+/// What a text says of a diameter: not "?", and nothing measured by hand.
+bool isKnownDiameter(const Argument& diameter) {
+  if (!diameter.isText) return diameter.number > 0;
+  const auto text = metrology::parseDimension(diameter.text);
+  // Texts that say nothing are refused as such.
+  if (!text) return true;
+  return !text->unknownPosition && !text->actual && text->actualParameter.empty() && text->nominal > 0;
+}
+
+void rules(CallRules& call) {
+  if (const auto whole = call.number(1119); whole && std::abs(*whole) < 1e-6) {
+    call.refuse("Angular length wrong", 1119, "Q1119 = 0 puts all touches into one place", "enter up to 360 degrees");
   }
-  return diameter;
+  for (const std::uint32_t parameter : {1116U, 1117U}) {
+    const auto diameter = call.value(parameter);
+    if (!diameter || isKnownDiameter(*diameter)) continue;
+    call.refuse("Diameter wrong", parameter, "The diameter of an object must be known and larger than 0",
+                "enter it as a number, or as a text with a tolerance");
+  }
+  planeRotationRules(call, {1100, 1101}, {1103, 1104});
 }
 
 constexpr LogTerm logTerms[] = {
@@ -106,7 +117,7 @@ void run(Context& context, const Arguments&) {
   requireAlignmentAxis(context);
   constexpr std::array<bool, 3> measured = {true, true, false};
   const std::array nominal = {nominalPosition(context, 1, measured), nominalPosition(context, 2, measured)};
-  const std::array diameters = {diameterOf(context, 1116), diameterOf(context, 1117)};
+  const std::array diameters = {nominalValue(context, 1116), nominalValue(context, 1117)};
   const double step = stepAngle(context);
 
   std::array<MeasuredPosition, 2> found;
@@ -157,6 +168,7 @@ void run(Context& context, const Arguments&) {
 extern const Entry cycle1411 = {.definition = definition,
                                 .conditions = {.under = Transformed::ByShiftOrRotation, .mismatchWithTcpm = true},
                                 .logTerms = logTerms,
+                                .rules = rules,
                                 .run = run};
 
 }  // namespace probewright::cycles::heidenhain

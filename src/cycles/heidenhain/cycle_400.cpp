@@ -46,6 +46,7 @@ void run(Context& context, const Arguments&) {
 
 }  // namespace
 
-extern const Entry cycle400 = {.definition = definition, .conditions = {.tilted = control::onITNC530}, .run = run};
+extern const Entry cycle400 = {
+    .definition = definition, .conditions = {.tilted = control::onITNC530}, .rules = edgeRules, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

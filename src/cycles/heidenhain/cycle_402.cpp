@@ -49,6 +49,7 @@ void run(Context& context, const Arguments&) {
 
 }  // namespace
 
-extern const Entry cycle402 = {.definition = definition, .conditions = {.tilted = control::onITNC530}, .run = run};
+extern const Entry cycle402 = {
+    .definition = definition, .conditions = {.tilted = control::onITNC530}, .rules = twoHoleRules, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

@@ -98,6 +98,7 @@ constexpr CycleDefinition definition = {
 };
 
 void rules(CallRules& call) {
+  edgeRules(call);
   if (call.kind() != ControlKind::iTNC530 || call.number(312) != 0) return;
   call.add(312, "the iTNC 530 does not find the rotary axis itself (Q312 = 0)",
            "name the axis: Q312 = 4 (A), 5 (B) or 6 (C)");

@@ -1,4 +1,7 @@
+#include <fmt/format.h>
+
 #include "control/alarm.hpp"
+#include "cycles/heidenhain/call_rules.hpp"
 #include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/corner_measurement.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
@@ -39,15 +42,26 @@ constexpr CycleDefinition definition = {
     .results = results414,
 };
 
+void rules(CallRules& call) {
+  // The third point tells on which sides of the corner the material lies.
+  for (const auto& [first, third] : {std::pair{263U, 296U}, {264U, 297U}}) {
+    const auto at = call.numbers({first, third});
+    if (!at || (*at)[0] != (*at)[1]) continue;
+    call.refuse("Corner not determined", third,
+                "The first and the third touch share a coordinate: the corner may lie on either side",
+                "choose the third touch (Q296, Q297) on the other side of the corner");
+  }
+  for (const std::uint32_t distance : {326U, 327U}) {
+    if (call.number(distance) != 0) continue;
+    call.refuse("Corner not determined", distance,
+                fmt::format("Two touches of one side are to be made at the same point (Q{})", distance),
+                "enlarge the distance");
+  }
+}
+
 void run(Context& context, const Arguments&) {
   requireTransferTarget(context);
   const double height = context.q(261);
-  // The third point tells on which sides of the corner the material lies.
-  if (context.q(296) == context.q(263) || context.q(297) == context.q(264)) {
-    throw control::Alarm("Corner not determined",
-                         "The first and the third touch share a coordinate: the corner may lie on either side",
-                         "choose the third touch (Q296, Q297) on the other side of the corner");
-  }
   const double towards1 = context.q(296) < context.q(263) ? 1 : -1;
   const double towards2 = context.q(297) > context.q(264) ? 1 : -1;
   const PartPoint first(context.q(263), context.q(264), height);
@@ -66,6 +80,7 @@ void run(Context& context, const Arguments&) {
 
 }  // namespace
 
-extern const Entry cycle414 = {.definition = definition, .conditions = {.under = Transformed::ByRotation}, .run = run};
+extern const Entry cycle414 = {
+    .definition = definition, .conditions = {.under = Transformed::ByRotation}, .rules = rules, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

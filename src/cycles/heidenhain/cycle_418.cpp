@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "control/alarm.hpp"
+#include "cycles/heidenhain/call_rules.hpp"
 #include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/hole_measurement.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
@@ -42,26 +43,39 @@ constexpr CycleDefinition definition = {
     .results = results418,
 };
 
+using metrology::Line2;
+
+std::optional<Vector2> crossingOf(const Vector2& first, const Vector2& second, const Vector2& third,
+                                  const Vector2& fourth) {
+  const auto crossing = metrology::intersection(Line2{first, third - first}, Line2{second, fourth - second});
+  return crossing ? std::optional<Vector2>(*crossing) : std::nullopt;
+}
+
+constexpr const char* alarm = "Intersection not determined";
+constexpr const char* parallel = "The lines through holes 1 and 3 and through holes 2 and 4 are parallel";
+constexpr const char* inOrder = "give the holes in their order around the intersection";
+
+void rules(CallRules& call) {
+  const auto first = call.numbers({268, 269}), second = call.numbers({270, 271}), third = call.numbers({316, 317}),
+             fourth = call.numbers({318, 319});
+  if (!first || !second || !third || !fourth) return;
+  if (first == third || second == fourth) {
+    call.refuse(alarm, first == third ? 317 : 319,
+                fmt::format("Holes {} lie at the same place", first == third ? "1 and 3" : "2 and 4"),
+                "give four different holes");
+  } else if (!crossingOf(*first, *second, *third, *fourth)) {
+    call.refuse(alarm, 319, parallel, inOrder);
+  }
+}
+
 void run(Context& context, const Arguments&) {
   requireTransferTarget(context);
-  for (const auto& [one, other] : {std::pair{268, 316}, {270, 318}}) {
-    const Vector2 along(context.q(other) - context.q(one), context.q(other + 1) - context.q(one + 1));
-    if (along.norm() >= 1e-6) continue;
-    throw control::Alarm("Intersection not determined",
-                         fmt::format("Holes {} lie at the same place", one == 268 ? "1 and 3" : "2 and 4"),
-                         "give four different holes");
-  }
   std::vector<Vector2> centres;
   for (const auto& [main, minor] : {std::pair{268, 269}, {270, 271}, {316, 317}, {318, 319}}) {
     centres.push_back(measureHoleCentre(context, {context.q(main), context.q(minor)}, context.q(261)).inPlane());
   }
-  const auto crossing = metrology::intersection(metrology::Line2{centres[0], centres[2] - centres[0]},
-                                                metrology::Line2{centres[1], centres[3] - centres[1]});
-  if (!crossing) {
-    throw control::Alarm("Intersection not determined",
-                         "The lines through holes 1 and 3 and through holes 2 and 4 are parallel",
-                         "give the holes in their order around the intersection");
-  }
+  const auto crossing = crossingOf(centres[0], centres[1], centres[2], centres[3]);
+  if (!crossing) throw control::Alarm(alarm, parallel, inOrder);
   context.result(151, crossing->x());
   context.result(152, crossing->y());
   finishPreset(context, {.measured = {crossing->x(), crossing->y(), context.q(261)},
@@ -71,6 +85,7 @@ void run(Context& context, const Arguments&) {
 
 }  // namespace
 
-extern const Entry cycle418 = {.definition = definition, .conditions = {.under = Transformed::ByRotation}, .run = run};
+extern const Entry cycle418 = {
+    .definition = definition, .conditions = {.under = Transformed::ByRotation}, .rules = rules, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "control/alarm.hpp"
+#include "cycles/heidenhain/call_rules.hpp"
 #include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/edge_measurement.hpp"
 #include "cycles/heidenhain/inspection.hpp"
@@ -43,16 +44,21 @@ constexpr CycleDefinition definition = {
     .results = results420,
 };
 
-void run(Context& context, const Arguments&) {
-  const bool sameMain = std::abs(context.q(263) - context.q(265)) <= 1e-4;
-  const bool sameMinor = std::abs(context.q(264) - context.q(266)) <= 1e-4;
+bool same(double one, double other) { return std::abs(one - other) <= 1e-4; }
+
+void rules(CallRules& call) {
+  edgeRules(call);
   // The older control takes all other points for those of a B axis.
-  if (context.option(272) == 3 && !sameMain && !sameMinor && context.control().isTNC640()) {
-    throw control::Alarm(
-        "Angle not determined",
-        "With Q272 = 3 the points must lie along the main or the minor axis: A and B are angles about them",
-        "make Q263 and Q265, or Q264 and Q266, equal");
-  }
+  const auto points = call.numbers({263, 265, 264, 266});
+  if (call.kind() != ControlKind::TNC640 || call.number(272) != 3 || !points) return;
+  if (same((*points)[0], (*points)[1]) || same((*points)[2], (*points)[3])) return;
+  call.refuse("Angle not determined", 266,
+              "With Q272 = 3 the points must lie along the main or the minor axis: A and B are angles about them",
+              "make Q263 and Q265, or Q264 and Q266, equal");
+}
+
+void run(Context& context, const Arguments&) {
+  const bool sameMain = same(context.q(263), context.q(265));
   const MeasuredEdge edge = measureEdge(context);
   double measured = 0;
   if (context.option(272) != 3) {
@@ -72,6 +78,6 @@ void run(Context& context, const Arguments&) {
 
 }  // namespace
 
-extern const Entry cycle420 = {.definition = definition, .logTerms = logTerms, .run = run};
+extern const Entry cycle420 = {.definition = definition, .logTerms = logTerms, .rules = rules, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

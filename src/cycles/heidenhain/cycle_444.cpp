@@ -4,6 +4,7 @@
 
 #include "base/number_text.hpp"
 #include "control/alarm.hpp"
+#include "cycles/heidenhain/call_rules.hpp"
 #include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/html_log.hpp"
 #include "cycles/heidenhain/parameters.hpp"
@@ -50,23 +51,36 @@ constexpr ResultDefinition results444[] = {
     {"Q183", "workpiece: -1 not monitored, 0 good, 1 rework, 2 scrap", result::status},
 };
 
-/// "0.4-0.1", "0.4", "-0.1"; nothing where the text monitors nothing. Throws Alarm for texts that are none.
-std::optional<metrology::Limits> toleranceOf(Context& context) {
-  std::string text = context.arguments().text(400);
+/// "0.4-0.1", "0.4", "-0.1"; nothing where the text is no tolerance.
+std::optional<metrology::Tolerance> toleranceIn(std::string text) {
   std::erase(text, ' ');
-  if (text.empty()) return std::nullopt;
+  if (text.empty()) return metrology::Tolerance{};
   const bool isSigned = text.front() == '+' || text.front() == '-';
   const auto dimension = metrology::parseDimension(fmt::format("0{}{}", isSigned ? "" : "+", text));
-  if (!dimension || !dimension->tolerance || dimension->actual || !dimension->actualParameter.empty()) {
-    throw control::Alarm("Tolerance wrong",
-                         fmt::format("QS400 = \"{}\" is not a tolerance", context.arguments().text(400)),
-                         "write the upper and the lower deviation, such as \"0.4-0.1\"");
-  }
-  const metrology::Tolerance& tolerance = *dimension->tolerance;
+  if (!dimension || dimension->actual || !dimension->actualParameter.empty()) return std::nullopt;
+  return dimension->tolerance;
+}
+
+/// What the call is compared with; nothing where its text monitors nothing.
+std::optional<metrology::Limits> limitsOf(Context& context) {
+  const metrology::Tolerance tolerance = toleranceIn(context.arguments().text(400)).value();
   const bool monitors = tolerance.width() > 0 && tolerance.lower <= 0 && tolerance.upper >= 0;
   if (!monitors) return std::nullopt;
   const double unit = context.control().unit;
   return metrology::Limits{tolerance.lower * unit, tolerance.upper * unit};
+}
+
+void rules(CallRules& call) {
+  const auto normal = call.numbers({581, 582, 583});
+  if (normal && !(normal->norm() > 1e-9)) {
+    call.refuse("Surface normal wrong", 583, "The normal vector Q581, Q582, Q583 has no length",
+                "give the direction away from the surface");
+  }
+  const auto tolerance = call.value(400);
+  if (tolerance && !toleranceIn(tolerance->text)) {
+    call.refuse("Tolerance wrong", 400, fmt::format("QS400 = \"{}\" is not a tolerance", tolerance->text),
+                "write the upper and the lower deviation, such as \"0.4-0.1\"");
+  }
 }
 
 Verdict verdictOf(double deviation, const metrology::Limits& limits) {
@@ -100,14 +114,9 @@ constexpr CycleDefinition definition = {
 };
 
 void run(Context& context, const Arguments&) {
-  const PlaneWay given(context.q(581), context.q(582), context.q(583));
-  if (!(given.norm() > 1e-9)) {
-    throw control::Alarm("Surface normal wrong", "The normal vector Q581, Q582, Q583 has no length",
-                         "give the direction away from the surface");
-  }
-  const PlaneWay n = given.normalized();
+  const PlaneWay n = PlaneWay(context.q(581), context.q(582), context.q(583)).normalized();
   const PartPoint nominal(context.q(263), context.q(264), context.q(294));
-  const auto limits = toleranceOf(context);
+  const auto limits = limitsOf(context);
 
   auto& prober = context.prober();
   const PlannedTouch planned{nominal, -n};
@@ -163,6 +172,7 @@ void run(Context& context, const Arguments&) {
 extern const Entry cycle444 = {.definition = definition,
                                .conditions = {.under = Transformed::ByShiftOrRotation, .mismatchWithTcpm = true},
                                .logTerms = logTerms,
+                               .rules = rules,
                                .run = run};
 
 }  // namespace probewright::cycles::heidenhain

@@ -6,6 +6,22 @@
 
 namespace probewright::cycles::heidenhain {
 
+namespace {
+
+constexpr const char* coincide = "The two touches coincide";
+constexpr const char* moveApart = "move the points apart";
+
+}  // namespace
+
+void edgeRules(CallRules& call) {
+  const auto axis = call.number(272);
+  const auto main = call.numbers({263, 265}), minor = call.numbers({264, 266});
+  // Along the measuring axis the points are where the edge is.
+  const bool sameMain = axis == 1 || (main && (*main)[0] == (*main)[1]);
+  const bool sameMinor = axis == 2 || (minor && (*minor)[0] == (*minor)[1]);
+  if (axis && sameMain && sameMinor) call.refuse("Edge not determined", axis == 2 ? 265 : 266, coincide, moveApart);
+}
+
 MeasuredEdge measureEdge(Context& context) {
   const double height = context.q(261);
   const PlaneWay direction = probing::axisDirection(context.option(272) - 1, context.option(267));
@@ -13,9 +29,8 @@ MeasuredEdge measureEdge(Context& context) {
   const PlannedTouch second{{context.q(265), context.q(266), height}, direction};
   const auto requireApart = [](const PlaneWay& along) {
     if (along.norm() >= 1e-6) return;
-    throw control::Alarm("Edge not determined", "The two touches coincide", "move the points apart");
+    throw control::Alarm("Edge not determined", coincide, moveApart);
   };
-  requireApart(second.surface - first.surface);
   const auto touches = probing::probePoints(context.prober(), {{first}, {second}},
                                             {.measuring = height,
                                              .clearance = context.q(260),

@@ -10,6 +10,12 @@
 #include "probing/heidenhain_strategies.hpp"
 
 namespace probewright::cycles::heidenhain {
+namespace {
+
+constexpr const char* centresCoincide = "The two centres coincide";
+constexpr const char* moveApart = "move the points apart";
+
+}  // namespace
 
 PartPoint measureHoleCentre(Context& context, const Vector2& centre, double measuringHeight) {
   auto& prober = context.prober();
@@ -43,10 +49,13 @@ PartPoint measureStudCentre(Context& context, const Vector2& centre, double diam
 
 double angleOf(const Vector2& first, const Vector2& second) {
   const Vector2 along = second - first;
-  if (along.norm() < 1e-6) {
-    throw control::Alarm("Angle not determined", "The two centres coincide", "move the points apart");
-  }
+  if (along.norm() < 1e-6) throw control::Alarm("Angle not determined", centresCoincide, moveApart);
   return degreesFromRadians(std::atan2(along.y(), along.x()));
+}
+
+void twoHoleRules(CallRules& call) {
+  const auto first = call.numbers({268, 269}), second = call.numbers({270, 271});
+  if (first && first == second) call.refuse("Angle not determined", 271, centresCoincide, moveApart);
 }
 
 void requireCompensation(Context& context) {
@@ -62,7 +71,6 @@ void requireCompensation(Context& context) {
   } else {
     control.requireWritablePreset(row == 0 && !control.isTNC640() ? active : row);
   }
-  angleOf({context.q(268), context.q(269)}, {context.q(270), context.q(271)});
 }
 
 void compensateByRotationOrTable(Context& context, double angle) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cycles/heidenhain/call_rules.hpp"
 #include "cycles/heidenhain/context.hpp"
 
 /// What cycles 401, 402, 405, 416, 418 and 430 have in common: centres of holes and studs as points of a pattern.
@@ -16,8 +17,10 @@ PartPoint measureStudCentre(Context& context, const Vector2& centre, double diam
 /// The angle from the main axis to the line from `first` to `second`, in (-180, 180].
 double angleOf(const Vector2& first, const Vector2& second);
 
-/// Refuses, before anything is touched, what 401 and 402 cannot carry out: no rotary table, a locked row, centres that
-/// coincide.
+/// Refuses centres of 401 and 402 that coincide.
+void twoHoleRules(CallRules& call);
+
+/// Refuses, before anything is touched, what 401 and 402 cannot carry out: no rotary table, a locked row.
 void requireCompensation(Context& context);
 
 /// What 401 and 402 do with a misalignment: a basic rotation (Q402 = 0) or an alignment of the rotary table.

@@ -1,9 +1,16 @@
 #pragma once
 
+#include <initializer_list>
+
+#include "cycles/heidenhain/call_rules.hpp"
 #include "cycles/heidenhain/nominal_position.hpp"
 
 /// What cycles 1410, 1411 and 1420 do with position and rotation: Q1120, Q1121, Q1126. The active preset takes it.
 namespace probewright::cycles::heidenhain {
+
+/// Refuses two positions that coincide in the coordinates of these parameters.
+void planeRotationRules(CallRules& call, std::initializer_list<std::uint32_t> first,
+                        std::initializer_list<std::uint32_t> second);
 
 /// Refuses what cannot be done before the probe moves: Q1126 without Q1121, a preset that must not be written.
 void requireRotationCycle(Context& context);
