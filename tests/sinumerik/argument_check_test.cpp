@@ -30,7 +30,7 @@ TEST(SinumerikArguments, CallsAsPostProcessorsWriteThemHaveNoMistakes) {
                        "CYCLE978(0,,,1,20,5,1,1,1,1,\"\",0,0,0,0,0,0,0,0,0,1,0)\n"
                        "CYCLE978(200,,1,1,20.,5.0,1,3,2,1,CUTTER,,0,.5,+0.1,-0.1,,1)\n"
                        "CYCLE977(201,,1,1,40,,,8,4,0,,,,1,1,\"MILL_\"<<20,,0,0.5,0.1,-0.1,,1,,,1,1)\n"
-                       "CYCLE961(107,1,1,20,20,20,20,0,0,,,0,0,0,90,2,5,2,1,,1,)\n"
+                       "CYCLE961(107,1,1,20,40,20,40,0,0,,,0,0,0,90,2,5,2,1,,1,)\n"
                        "CYCLE998(105,10004,0,1,1,0,,5,5,201,1,10,,,,,1,,1,)\n"
                        "CYCLE979(R10,,,1,40,5,2,0,0,0,90)\n"
                        "CYCLE997(109,1,1,25,5,2,0,90,,,,,,,,,,,1,,1,)\n"
@@ -210,6 +210,17 @@ TEST(SinumerikArguments, WhatCannotGoTogetherIsNamed) {
   EXPECT_EQ(mistakes("CYCLE997(10119,10001,1,25,8,5,,,0,0,10,50,0,10,100,0,10,,1,,1)"), (Messages{line}));
   EXPECT_EQ(mistakes("CYCLE997(10119,10001,1,25,8,5,,,0,0,10,50,0,10,0,0,10,,1,,1)"), (Messages{line}));
   EXPECT_EQ(mistakes("CYCLE997(10119,10001,1,25,8,5,,,0,0,10,50,0,10,50,40,10,,1,,1)"), Messages{});
+  const std::string first = "points 1 and 2 (S_SETV0, S_SETV1) do not lie along one edge";
+  const std::string second = "points 3 and 4 (S_SETV2, S_SETV3) do not lie along one edge";
+  const std::string corner = "S_INCA is not a possible angle of a corner";
+  EXPECT_EQ(mistakes("CYCLE961(106,1,1,30,30,60,,-15,-15,,,,,,,,20,5)"), (Messages{first}));
+  EXPECT_EQ(mistakes("CYCLE961(106,1,1,-30,80,60,,-15,-15,,,,,,,,20,5)"), (Messages{first}));
+  EXPECT_EQ(mistakes("CYCLE961(20106,1,1,-30,80,60,,-15,-15,,,,,,,,20,5)"), Messages{}) << "corner 2 takes amounts";
+  EXPECT_EQ(mistakes("CYCLE961(108,1,1,30,80,60,60,-15,-15,,,,,,90,,20,5)"), (Messages{second}));
+  EXPECT_EQ(mistakes("CYCLE961(108,1,1,30,80,60,-90,-15,-15,,,,,,90,,20,5)"), (Messages{second}));
+  EXPECT_EQ(mistakes("CYCLE961(108,1,1,30,80,60,90,-15,-15,,,,,,180,,20,5)"), (Messages{corner}));
+  EXPECT_EQ(mistakes("CYCLE961(108,1,1,30,80,60,90,-15,-15,,,,,,90,,20,5)"), Messages{});
+  EXPECT_EQ(mistakes("CYCLE961(106,1,1,30,80,60,,-15,-15,,,,,,,,20,5)"), Messages{});
   EXPECT_EQ(mistakes("CYCLE961(117,1,1,5,5,5,5,10,0,20,0,,,,,,10,5)"),
             (Messages{"points 1 and 2 (S_SETV0 to S_SETV3) coincide"}));
   EXPECT_EQ(mistakes("CYCLE961(117,1,1,0,0,9,0,10,5,20,5,,,,,,10,5)"),

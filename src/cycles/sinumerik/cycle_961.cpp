@@ -105,6 +105,34 @@ struct Plan {
   double axisAngle = 0;  ///< the direction that becomes the 1st axis
 };
 
+/// Where the touches lie on the edges, from the pole: points 1 and 2 on the first, 3 and 4 on the second edge. A first
+/// distance that is left out is half the second.
+struct Distances {
+  double along[4];
+
+  Distances(const double (&given)[4], int corner, bool rightAngled) {
+    const auto signedAs = [](double length, bool negative) { return negative ? -std::abs(length) : length; };
+    for (int i = 0; i < 4; ++i)
+      along[i] = signedAs(given[i], corner == 3 || corner == (i < 2 ? 2 : 4));
+    if (along[0] == 0) along[0] = along[1] / 2;
+    if (along[2] == 0 && rightAngled) along[2] = along[3] / 2;
+  }
+
+  /// The argument at which they are no edges, and why; an empty text where they are.
+  std::pair<std::string_view, std::string> mistake(bool rightAngled) const {
+    const auto [l1, l2, l3, l4] = along;
+    if (l1 == l2 || l1 * l2 < 0) return {"S_SETV1", "points 1 and 2 (S_SETV0, S_SETV1) do not lie along one edge"};
+    if (l3 == 0 || (!rightAngled && (l3 == l4 || l3 * l4 < 0)))
+      return {"S_SETV3", "points 3 and 4 (S_SETV2, S_SETV3) do not lie along one edge"};
+    return {};
+  }
+};
+
+/// The angle from edge to edge of a corner.
+bool isOpening(double degrees) { return std::abs(std::sin(radiansFromDegrees(degrees))) >= 0.01; }
+
+constexpr const char* wrongOpening = "S_INCA is not a possible angle of a corner";
+
 Plan planOf(Context& context) {
   Plan plan;
   const bool rightAngled = context.digit("S_MVAR", 1) <= 6;
@@ -131,22 +159,12 @@ Plan planOf(Context& context) {
     if (std::abs(plan.axisAngle) > 270) context.alarm(61319, "S_STA1 is between -270 and 270 degrees");
     const double opening = rightAngled ? 90 : context.real("S_INCA");
     if (std::abs(opening) > 180) context.alarm(61319, "S_INCA is between -180 and 180 degrees");
-    if (std::abs(std::sin(radiansFromDegrees(opening))) < 0.01)
-      context.alarm(61319, "S_INCA is not a possible angle of a corner");
+    if (!isOpening(opening)) context.alarm(61319, wrongOpening);
     const Vector2 first = probing::directionAt(plan.axisAngle).inPlane();
     const Vector2 second = probing::directionAt(plan.axisAngle + opening).inPlane();
-    const int corner = context.digit("S_MVAR", 5);
-    const auto signedAs = [](double length, bool negative) { return negative ? -std::abs(length) : length; };
-    const double l2 = signedAs(value(1), corner == 2 || corner == 3);
-    const double l4 = signedAs(value(3), corner == 3 || corner == 4);
-    double l1 = signedAs(value(0), corner == 2 || corner == 3);
-    double l3 = signedAs(value(2), corner == 3 || corner == 4);
-    if (l1 == 0) l1 = l2 / 2;
-    if (l3 == 0 && rightAngled) l3 = l4 / 2;
-    if (l1 == l2 || l1 * l2 < 0) context.alarm(61319, "points 1 and 2 (S_SETV0, S_SETV1) do not lie along one edge");
-    if (l3 == 0 || (!rightAngled && (l3 == l4 || l3 * l4 < 0))) {
-      context.alarm(61319, "points 3 and 4 (S_SETV2, S_SETV3) do not lie along one edge");
-    }
+    const Distances distances({value(0), value(1), value(2), value(3)}, context.digit("S_MVAR", 5), rightAngled);
+    const auto [l1, l2, l3, l4] = distances.along;
+    if (const auto [argument, text] = distances.mistake(rightAngled); !text.empty()) context.alarm(61319, text);
     plan.point[0] = plan.pole + first * l1;
     plan.point[1] = plan.pole + first * l2;
     plan.point[2] = plan.pole + second * l3;
@@ -170,8 +188,22 @@ constexpr Requirement requirements[] = {
     {"S_INCA", Need::Within, cornerOfAnyAngle, -180, 180},
 };
 
+void checkDistances(CallCombinations& call) {
+  const bool rightAngled = call.digit(1) <= 6;
+  if (const auto opening = call.number("S_INCA"); !rightAngled && opening && !isOpening(*opening))
+    call.refuse("S_INCA", wrongOpening);
+  double given[4];
+  for (int i = 0; i < 4; ++i) {
+    const auto distance = call.number(fmt::format("S_SETV{}", i));
+    if (!distance) return;
+    given[i] = *distance;
+  }
+  const Distances distances(given, call.digit(5), rightAngled);
+  if (const auto [argument, text] = distances.mistake(rightAngled); !text.empty()) call.refuse(argument, text);
+}
+
 void combinations(CallCombinations& call) {
-  if (call.digit(2) != 1) return;
+  if (call.digit(2) != 1) return checkDistances(call);
   double value[8] = {};
   const int count = call.digit(1) <= 6 ? 6 : 8;
   for (int i = 0; i < count; ++i) {
