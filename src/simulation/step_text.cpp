@@ -44,6 +44,27 @@ std::size_t endOfText(std::string_view bytes, std::size_t begin, TextEnd by) {
 /// False where a text by the standard cannot end: within it stands a quote that is not doubled.
 bool mayEndText(std::string_view bytes, std::size_t at) { return isBeforeSign(bytes, at, ",);/"); }
 
+/// "-12", "1.", ".5", "6.02E-7".
+bool isNumber(std::string_view text) {
+  const auto digits = [&] {
+    const std::size_t count = std::min(text.find_first_not_of("0123456789"), text.size());
+    text.remove_prefix(count);
+    return count;
+  };
+  const auto has = [&](std::string_view signs) {
+    const bool found = !text.empty() && signs.find(text.front()) != std::string_view::npos;
+    if (found) text.remove_prefix(1);
+    return found;
+  };
+  has("+-");
+  std::size_t count = digits();
+  if (has(".")) count += digits();
+  if (count == 0) return false;
+  if (!has("Ee")) return text.empty();
+  has("+-");
+  return digits() > 0 && text.empty();
+}
+
 bool beginsWith(std::string_view text, std::string_view capitals) {
   return upperCase(text.substr(0, capitals.size())) == capitals;
 }
@@ -116,6 +137,21 @@ private:
                                                    text_.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
     at_ = end;
     strayQuotes_ = strayQuotes_ || !mayEndText(text_, at_);
+    return {};
+  }
+
+  /// True at a sign, a digit or a decimal point; a name between points (.TRUE.) is none.
+  bool beginsNumber() const {
+    const char next = at_ + 1 < text_.size() ? text_[at_ + 1] : '\0';
+    return isDigit(text_[at_]) || text_[at_] == '+' || text_[at_] == '-' || (text_[at_] == '.' && isDigit(next));
+  }
+
+  /// A number among the arguments of `name`.
+  Result<void> value(const std::string& name) {
+    const std::size_t end = std::min(text_.find_first_of(",();'/ \t\r\n", at_), text_.size());
+    const std::string_view number = text_.substr(at_, end - at_);
+    if (!isNumber(number)) return broken(fmt::format("{}: \"{}\" is not a number", name, number), line_);
+    at_ = end;
     return {};
   }
 
@@ -194,8 +230,17 @@ private:
           ++at_;
           if (depth > 0) return broken(fmt::format("{} lacks a closing bracket", name), begin);
           return {};
-        default:
+        case '"':
+          at_ = std::min(text_.find('"', at_ + 1), text_.size() - 1);
           break;
+        default:
+          if (id != 0 && beginsNumber()) {
+            if (auto read = value(name); !read) return read;
+            continue;
+          }
+          if (!isNameLetter(text_[at_])) break;
+          word();
+          continue;
       }
       ++at_;
     }

@@ -158,6 +158,20 @@ TEST(StepText, TakesAQuoteThatIsNotDoubledAsALetterOfItsText) {
   }
 }
 
+/// OpenCASCADE reads as much of a damaged number as it understands, and something else after it.
+TEST(StepText, NamesWhatBeginsLikeANumberAndIsNone) {
+  for (const char* number : {"0", "-12", "+3", "1.", ".5", "-.5", "0.25", "6.02E-7", "1.E+00", "2.E5", "3E2"}) {
+    const auto text = scanStep(step(fmt::format("#1=DIRECTION('',(0.,{}),.T.,.U2.,\"0A1\",$);\n", number)), "p.step");
+    EXPECT_TRUE(text) << number << ": " << format(text.error());
+  }
+  for (const char* number :
+       {"0.707106B81186548", "1..5", "0.7-1", "1.E", "2.5E1.5", "--3", "+", "-", "12A", "1.5E+-3"}) {
+    const auto text = scanStep(step(fmt::format("#1=A(1.);\n#7=DIRECTION('',\n(0.,{} ));\n", number)), "p.step");
+    ASSERT_FALSE(text) << number;
+    EXPECT_THAT(format(text.error()), HasSubstr(fmt::format("p.step:7: error: #7: \"{}\" is not a number", number)));
+  }
+}
+
 TEST(StepText, ItsKeywordsMayBeWrittenSmall) {
   const std::string bytes =
       "iso-10303-21;\nheader;\nendsec;\ndata;\n#1=DIRECTION('',(0.,1.));\nendsec;\nend-iso-10303-21;\n";
