@@ -163,6 +163,33 @@ TEST(MisalignmentTables, ShiftTheZeroOfTheAxisInADatumTable) {
   EXPECT_NE(open.why().find("Q303"), std::string::npos) << open.why();
 }
 
+/// A basic rotation asks whether the row that takes it is locked, and for no other.
+TEST(MisalignmentTables, AskForTheRowOfABasicRotationOnly) {
+  for (const int row : {0, 1, 5}) {
+    for (const int locked : {0, 1, 5}) {
+      SCOPED_TRACE(fmt::format("Q305 {}, row {} locked", row, locked));
+      Bench bench = twoHoles(newer);
+      bench.setup.beliefs.presets.clear();
+      const TableFolder folder(bench);
+      control::heidenhain::TypedTable presets = control::heidenhain::defaultPresetTable(newer);
+      for (const char* name : {"0", "1", "5"}) {
+        ASSERT_TRUE(presets.ensureRow(name));
+        ASSERT_TRUE(presets.setNumber(name, "Z", -400));
+      }
+      ASSERT_TRUE(presets.setText(std::to_string(locked), "LOCKED", "L"));
+      folder.put("PRESET.PR", presets);
+      const Ran ran = bench.run("CYCL DEF 247 PRESET ~\n  Q339=1 ;NUMBER\n" +
+                                probe(401, with(holes, {{402, 0}, {337, 0}, {305, row}})));
+      if (locked != row) {
+        EXPECT_TRUE(ran.finished()) << ran.why();
+        continue;
+      }
+      EXPECT_EQ(ran.alarm(), "Preset locked") << ran.why();
+      EXPECT_TRUE(ran.cycle().touches.empty());
+    }
+  }
+}
+
 TEST(MisalignmentTables, EnterTheAxisOf403WhereTheManualSays) {
   struct Row {
     ControlKind kind;

@@ -157,6 +157,15 @@ TEST_F(Configuration, JoinsAsManyLinesAsAreContinuedAndCountsEach) {
   EXPECT_THAT(said(), HasSubstr("does not say where the axis of A lies"));
 }
 
+TEST_F(Configuration, TakesNumbersOnly) {
+  for (const char* value : {"", "inf", "1e999", "nan", "fast", "9 mm/s", "; none"}) {
+    EXPECT_FALSE(read("[KINS]\nKINEMATICS = trivkins coordinates=XYZ\n" + joints(2) +
+                      "[JOINT_2]\nMIN_LIMIT = " + value + "\nMAX_LIMIT = 0\nMAX_VELOCITY = 9\nMAX_ACCELERATION = 99\n"))
+        << value;
+    EXPECT_THAT(said(), HasSubstr("MIN_LIMIT")) << value;
+  }
+}
+
 TEST_F(Configuration, AsksWhereARotaryAxisLies) {
   const std::string ini = "[KINS]\nKINEMATICS = trivkins coordinates=XYZA\n[TRAJ]\nCOORDINATES = XYZA\n" + joints(4);
   EXPECT_FALSE(read(ini));

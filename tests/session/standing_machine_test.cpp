@@ -62,6 +62,9 @@ TEST_F(Standing, KeepsWhatTheMachineHasToCatchUpWith) {
   EXPECT_EQ(machine.orders().rotation->rotation, Rotation::CounterClockwise);
   EXPECT_EQ(machine.orders().rotation->speed, 700);
   EXPECT_THAT(machine.orders().functions, ElementsAre(50, 8)) << "M9 ended M7, and M8 ended that";
+  for (const int number : {50, 8, 9})
+    machine.function(number);
+  EXPECT_THAT(machine.orders().functions, ElementsAre(50, 9)) << "M9 ended M8 and nothing else";
   EXPECT_THAT(inner.orders, IsEmpty());
 }
 

@@ -334,6 +334,20 @@ TEST(SinumerikMotion, ATangentialArcLeavesInTheLastDirection) {
   for (std::size_t i = 2; i < world.machine.moves.size(); ++i)
     EXPECT_NEAR((tipOf(world, i) - Vector3(10, 10, 0)).norm(), 10, 1e-9);
   EXPECT_LT((lastTip(world) - Vector3(20, 10, 0)).norm(), 1e-9);
+  EXPECT_EQ(World().alarm("F1000 CT X20 Y10\n"), "14045") << "nothing moved before";
+  EXPECT_EQ(World().alarm("F1000 G1 X10 Y0\nCT X10 Y0\n"), "14045") << "no way to go";
+}
+
+/// M3 begins with the speed of its block, wherever that stands, and not with the one before.
+TEST(SinumerikMotion, TheSpindleBeginsWithTheSpeedOfItsBlock) {
+  for (const char* block : {"M3 S900", "S900 M3", "S1=900 M1=3", "M1=3 S1=900", "M3 S1=900"}) {
+    World world;
+    world.run(std::string("S500\n") + block + "\n");
+    ASSERT_FALSE(world.machine.spindleOrders.empty()) << block;
+    // The end of the program stops it.
+    for (const machine::SpindleState& order : world.machine.spindleOrders)
+      EXPECT_EQ(order.speed, order.rotation == machine::Rotation::None ? 0 : 900) << block;
+  }
 }
 
 TEST(SinumerikMotion, ToolRadiusCompensationKeepsTheDistance) {

@@ -141,7 +141,7 @@ private:
   Control& control_;
   MotionState& state_;
   Measurement measurement_;
-  Vector3 direction_ = Vector3::UnitX();  ///< of the last motion at its end, for CT
+  Vector3 direction_ = Vector3::Zero();  ///< of the last motion at its end, for CT; zero: nothing has moved yet
   std::vector<std::uint32_t> axisCodes_;
   CornerMaker corners_;
   RadiusCompensator compensator_;
