@@ -144,7 +144,9 @@ private:
     beginText();
     usedAtLastSign_ = used_;
     const auto [word, rest] = firstWord(line);
-    if (word == "stage") {
+    if (word == "on") {
+      open_[numberIn(rest)] = used_;
+    } else if (word == "stage") {
       stage_ = rest;
       watch_.tell(stage_);
       meshing_ = stage_.starts_with("meshing");
@@ -202,7 +204,7 @@ private:
     const bool faceHangs =
         std::ranges::any_of(open_, [&](const auto& entry) { return used_ - entry.second > options_.faceSeconds; });
     // Before its faces the mesher does all edges, without a word.
-    return faceHangs || (open_.empty() && used_ - usedAtLastSign_ > 8 * options_.faceSeconds);
+    return faceHangs || (open_.empty() && used_ - usedAtLastSign_ > 30 * options_.faceSeconds);
   }
 
   void tellProgress() {
@@ -439,7 +441,7 @@ private:
   int attempt_ = 1;
 
   // What the child has said.
-  std::map<int, double> open_;            ///< the faces it is at, and what of the processor it had used when it began
+  std::map<int, double> open_;  ///< the faces it is at, and what of the processor it had used at their last point
   double used_ = 0, usedAtLastSign_ = 0;  ///< seconds of the processor
   std::vector<Suspect> suspects_;
   std::vector<std::string> lost_;

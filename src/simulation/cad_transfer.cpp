@@ -363,6 +363,7 @@ void mesh(const TopoDS_Shape& shape, const TransferOrder& order, const ChildVoic
   OSD_Parallel::SetUseOcctThreads(true);
   options.parallel = std::thread::hardware_concurrency() > 1;
   options.begins = [&](int face) { voice.say(fmt::format("begin {}", face)); };
+  options.goesOn = [&](int face) { voice.say(fmt::format("on {}", face)); };
   options.ends = [&](int face) { voice.say(fmt::format("end {}", face)); };
   for (const GridFace& grid : meshFaces(shape, order.deflection, options))
     voice.say(fmt::format("grid {} {:.3f} {}", grid.face, grid.cell, grid.kind));

@@ -79,18 +79,25 @@ const char* kindOf(const TopoDS_Face& face) {
 
 bool isFlat(const TopoDS_Face& face) { return BRepAdaptor_Surface(face, Standard_False).GetType() == GeomAbs_Plane; }
 
-/// Ends the mesher's work on a face after so many points: it asks before each whether to go on.
+/// Ends the mesher's work on a face after so many points: it asks before each whether to go on. Says meanwhile that it
+/// does.
 class PointLimit : public Message_ProgressIndicator {
 public:
-  explicit PointLimit(int most) : left_(most) {}
+  PointLimit(int most, std::function<void()> goesOn) : left_(most), goesOn_(std::move(goesOn)) {}
   bool isReached() const { return left_ < 0; }
 
 protected:
-  Standard_Boolean UserBreak() override { return left_ < 0 || --left_ < 0; }
+  Standard_Boolean UserBreak() override {
+    constexpr int kPointsPerSign = 1000;
+    if (left_ < 0 || --left_ < 0) return Standard_True;
+    if (left_ % kPointsPerSign == 0 && goesOn_) goesOn_();
+    return Standard_False;
+  }
   void Show(const Message_ProgressScope&, const Standard_Boolean) override {}
 
 private:
   int left_;
+  std::function<void()> goesOn_;
 };
 
 /// The faces that the mesher gave up, noted by several threads.
@@ -120,7 +127,9 @@ public:
     const int number = found == numbers_.end() ? 0 : found->second;
     if (options_.left.contains(number) || (options_.leaveAll && !isFlat(face->GetFace()))) return;
     if (options_.begins) options_.begins(number);
-    const Handle(PointLimit) limit = new PointLimit(options_.mostPoints);
+    const Handle(PointLimit) limit = new PointLimit(options_.mostPoints, [this, number] {
+      if (options_.goesOn) options_.goesOn(number);
+    });
     algo_->Perform(face, parameters, limit->Start());
     if (limit->isReached()) givenUp_.add(number);
     if (options_.ends) options_.ends(number);

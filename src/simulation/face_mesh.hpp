@@ -16,8 +16,9 @@ struct FaceMeshOptions {
   std::set<int> left;                ///< faces that are not to be tried: they get a grid at once
   bool leaveAll = false;             ///< every face that is not flat gets a grid at once
   int mostPoints = kMostMeshPoints;  ///< after which the mesher gives a face up
-  /// Told when the mesher begins with a face and when it is done with it; from several threads, if `parallel`.
-  std::function<void(int face)> begins, ends;
+  /// Told when the mesher begins with a face, while it makes points of it, and when it is done with it; from several
+  /// threads, if `parallel`.
+  std::function<void(int face)> begins, goesOn, ends;
 };
 
 /// A face that the mesher cannot do.

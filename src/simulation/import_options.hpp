@@ -24,7 +24,7 @@ struct ImportOptions {
 
   double seconds = 1800;             ///< after which an import is given up
   int facePoints = kMostMeshPoints;  ///< after which a face is not meshed any further, but gets a grid
-  double faceSeconds = 15;           ///< of the processor: the same, for the rare face that makes no points
+  double faceSeconds = 4;            ///< of the processor without a further point: the same, for the rare face
   std::uint64_t bytes = std::uint64_t{8} << 30U;  ///< of memory that an import may take
 };
 
