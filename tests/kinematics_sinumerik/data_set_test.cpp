@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include "control/sinumerik/tool_carrier.hpp"
 #include "kinematics_sinumerik/scene.hpp"
 
 /// Where CYCLE996 puts what it finds: data set, machine data, log, screen; and what reads them.
@@ -240,6 +241,16 @@ TEST(Normalisation, CountsTheAxesOfThePlane) {
   EXPECT_NEAR(scene.datum(15).z(), -40, 1e-9);
   scene.enterDirections();
   EXPECT_LT(scene.errorOfDataSet(plant), 1e-6);
+}
+
+TEST(FineOffsets, CountOnMachinesThatHaveThem) {
+  control::sinumerik::DataStore store;
+  store.load({"$TC_CARR23", {1}}, std::string("P"));
+  store.load({"$TC_CARR4", {1}}, 10.0);
+  store.load({"$TC_CARR44", {1}}, 0.75);
+  EXPECT_EQ(control::sinumerik::toolCarrier(store, 1).value().offset[1], Vector3(10, 0, 0));
+  store.load({"$SC_TOCARR_FINE_CORRECTION", {}}, 1.0);
+  EXPECT_EQ(control::sinumerik::toolCarrier(store, 1).value().offset[1], Vector3(10.75, 0, 0));
 }
 
 /// Fine offsets that count are left alone, and the sum is what was measured.
