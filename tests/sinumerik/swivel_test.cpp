@@ -76,6 +76,39 @@ TEST(Swivel, RetractsToThePositionsOfTheDataSet) {
   EXPECT_NE(stayed[2], -42.5);
 }
 
+/// _FR = 4 and 5 retract along the tool, however the head has turned it: 5 by _FR_I, 4 until the first linear axis
+/// ends.
+TEST(Swivel, RetractsAlongTheToolOfATurnedHead) {
+  for (const char* name : {"mill5-head-head", "mill5-head-table", "mill5-table-table"}) {
+    for (const char* plane : {"", "CYCLE800(0,\"\",0,57,0,0,0,20,10,0,0,0,0,1)\n"}) {
+      const auto wayOf = [&](const char* retraction) {
+        World world(name);
+        const std::string before = fmt::format("T2 M6\nSUPA G0 X0 Y0 Z-200 D0\nD1\n{}", plane);
+        world.run(before);
+        const machine::MachineDescription machine = world.control.channel.description();
+        const machine::AxisPositions from = world.control.channel.axes();
+        const Vector3 tool = machine::baseFromSpindle(machine, from).linear() * Vector3::UnitZ();
+        world.run(fmt::format("CYCLE800({})\n", retraction));
+        const machine::AxisPositions to = world.control.channel.axes();
+        Vector3 way;
+        double room = std::numeric_limits<double>::infinity();  // to the first end of a travel
+        for (int i = 0; i < 3; ++i) {
+          const std::size_t axis = *machine.axisIndex(std::string("XYZ").substr(static_cast<std::size_t>(i), 1));
+          way[i] = to[axis] - from[axis];
+          const double end = tool[i] > 0 ? machine.axes[axis].maximum : machine.axes[axis].minimum;
+          if (std::abs(tool[i]) > 1e-9) room = std::min(room, (end - from[axis]) / tool[i]);
+        }
+        return std::tuple(way, tool, room);
+      };
+      const auto [by, tool, room] = wayOf("5,\"\",0,57,0,0,0,20,10,0,0,0,0,0,30");
+      EXPECT_LT((by - 30 * tool).norm(), 1e-9) << name << plane << by.transpose();
+      const auto [whole, toolOfWhole, roomOfWhole] = wayOf("4,\"\",0,57,0,0,0,20,10,0,0,0,0,0");
+      EXPECT_LT((whole - roomOfWhole * toolOfWhole).norm(), 1e-9) << name << plane << whole.transpose();
+      EXPECT_GT(roomOfWhole, 50);
+    }
+  }
+}
+
 /// Two rotary axes point the tool in a direction in two ways. That of which the direction was made is one; the other
 /// mirrors the tilting axis about the position where both meet.
 TEST(Swivel, BothPosturesOfADirectionAreFound) {

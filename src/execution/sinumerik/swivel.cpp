@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
 
 #include "control/alarm.hpp"
 #include "control/sinumerik/tool_carrier.hpp"
@@ -75,6 +79,28 @@ double retractionOf(const Control& control, int dataSet, int datum, double other
   return control.data.number(control::sinumerik::carrierDatum(datum, dataSet), otherwise);
 }
 
+/// Where the axes are at after going this far (mm) along the tool as it stands, away from its tip; without a distance
+/// as far as the first linear axis permits.
+AxisPositions alongTool(const control::Channel& channel, std::optional<double> distance) {
+  const machine::MachineDescription& machine = channel.description();
+  AxisPositions target = channel.axes();
+  const Vector3 inSpindle = channel.toolVector.norm() > 1e-9 ? channel.toolVector.normalized() : Vector3::UnitZ();
+  const Vector3 direction = machine::baseFromSpindle(machine, target).linear() * inSpindle;
+  double way = distance.value_or(std::numeric_limits<double>::infinity());
+  std::array<std::optional<std::size_t>, 3> axes;
+  for (std::size_t i = 0; i < 3; ++i) {
+    axes[i] = machine.axisIndex(std::string("XYZ").substr(i, 1));
+    const double slope = direction[static_cast<Eigen::Index>(i)];
+    if (distance || !axes[i] || std::abs(slope) < 1e-9) continue;
+    const machine::Axis& axis = machine.axes[*axes[i]];
+    way = std::min(way, std::max(0.0, ((slope > 0 ? axis.maximum : axis.minimum) - target[*axes[i]]) / slope));
+  }
+  if (!std::isfinite(way)) return target;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (axes[i]) target[*axes[i]] += way * direction[static_cast<Eigen::Index>(i)];
+  return target;
+}
+
 void retract(Control& control, const SwivelCall& call, int dataSet) {
   control::Channel& channel = control.channel;
   const machine::MachineDescription& machine = channel.description();
@@ -83,10 +109,8 @@ void retract(Control& control, const SwivelCall& call, int dataSet) {
   switch (call.retract) {
     case 1:
     case 2:
-    case 4:
       if (z) {
-        const double end = machine.axes[*z].maximum;
-        target[*z] = call.retract == 4 ? end : retractionOf(control, dataSet, 40, end);
+        target[*z] = retractionOf(control, dataSet, 40, machine.axes[*z].maximum);
         channel.moveAxes(target, control::Feed::rapidTraverse());
       }
       if (call.retract == 2) {
@@ -99,9 +123,10 @@ void retract(Control& control, const SwivelCall& call, int dataSet) {
         channel.moveAxes(target, control::Feed::rapidTraverse());
       }
       return;
+    case 4:
+      return channel.moveAxes(alongTool(channel, std::nullopt), control::Feed::rapidTraverse());
     case 5:
-      if (call.retraction > 0)
-        channel.moveTo(channel.position() + call.retraction * channel.toolAxis(), control::Feed::rapidTraverse());
+      if (call.retraction > 0) channel.moveAxes(alongTool(channel, call.retraction), control::Feed::rapidTraverse());
       return;
     default:
       return;
