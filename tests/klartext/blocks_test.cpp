@@ -61,6 +61,17 @@ TEST(Blocks, LabelsAreFound) {
   EXPECT_FALSE(program.findLabel("6", {}, JumpDirection::Any));
 }
 
+/// A name of digits is another label than the number, and keeps its leading zeros.
+TEST(Blocks, NamesOfDigitsAreNoNumbers) {
+  KlartextProgram program("a.h", "0 BEGIN PGM A MM\n1 LBL 5\n2 LBL \"5\"\n3 LBL \"007\"\n4 LBL \"0\"\n");
+  EXPECT_EQ(program.findLabel("5", {}, JumpDirection::Any)->line, 2U);
+  EXPECT_EQ(program.findLabel("\"5\"", {}, JumpDirection::Any)->line, 3U);
+  EXPECT_EQ(program.findLabel("\"007\"", {}, JumpDirection::Any)->line, 4U);
+  EXPECT_EQ(program.findLabel("007", {}, JumpDirection::Any)->line, 4U);  // of a QS parameter
+  EXPECT_EQ(irOf("LBL \"5\""), "Label '\"5\"'");
+  EXPECT_EQ(irOf("CALL LBL \"0\""), "CallLabel '\"0\"'");
+}
+
 TEST(Blocks, Functions) {
   EXPECT_EQ(irOf("FN 0: Q5 = +60"), "Q5 := 60");
   EXPECT_EQ(irOf("FN1 :Q1 = -Q2 + -5"), "Q1 := (-Q2+-5)");

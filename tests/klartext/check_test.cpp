@@ -164,12 +164,11 @@ TEST(Check, WhatTheControlDoesNotHave) {
   EXPECT_EQ(mistakes("1 LBL 1000\n", newer), "");
   EXPECT_EQ(mistakes("1 LBL 70000\n", newer), "a.h:2:3: error: there is no label number 70000");
   EXPECT_EQ(mistakes("1 LBL \"5\"\n2 CALL LBL \"5\"\n", newer), "");
-  EXPECT_EQ(
-      mistakes("1 LBL \"5\"\n2 CALL LBL 5\n", newer),
-      "a.h:3:3: warning: label 5 is written with and without quotation marks: two labels on the control, one here");
-  EXPECT_EQ(
-      mistakes("1 LBL 5\n2 FN 9: IF +Q1 EQU +0 GOTO LBL \"5\"\n", newer),
-      "a.h:3:3: warning: label 5 is written with and without quotation marks: two labels on the control, one here");
+  EXPECT_EQ(mistakes("1 LBL \"5\"\n2 CALL LBL 5\n", newer), "a.h:3:12: error: there is no label 5 in this program");
+  EXPECT_EQ(mistakes("1 LBL 5\n2 FN 9: IF +Q1 EQU +0 GOTO LBL \"5\"\n", newer),
+            "a.h:3:32: error: there is no label \"5\" in this program");
+  EXPECT_EQ(mistakes("1 LBL 5\n2 LBL \"5\"\n3 CALL LBL 5\n4 CALL LBL \"5\"\n", newer), "");
+  EXPECT_EQ(mistakes("1 LBL \"05\"\n2 LBL \"5\"\n3 CALL LBL \"05\" REP1\n", newer), "");
   EXPECT_EQ(mistakes("1 CYCL DEF 999 NONE ~\n Q200=1\n", newer), "a.h:2:3: error: there is no cycle 999");
   EXPECT_EQ(mistakes("1 CYCL DEF 200 DRILLING ~\n Q200=1\n", newer), "");
   EXPECT_EQ(mistakes("1 FN 15: PRINT 5\n", newer), "a.h:2:3: warning: the TNC 640 has no FN 15");

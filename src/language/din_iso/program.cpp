@@ -132,8 +132,9 @@ void DinIsoProgram::indexLabels() {
     Lexer lexer(withoutBlockNumber(block.statement));
     if (lexer.acceptPrefix("G98") && lexer.accept('L')) {
       const std::optional<std::string_view> quoted = lexer.quoted();
-      const std::string_view label = quoted ? *quoted : klartext::canonicalLabel(lexer.chunk());
-      if (!label.empty() && label != "0") labels_.emplace(std::string(label), position);
+      const std::string label =
+          quoted ? klartext::namedLabel(*quoted) : std::string(klartext::canonicalLabel(lexer.chunk()));
+      if (!label.empty() && label != "0") labels_.emplace(label, position);
     }
     position = block.next;
   }
@@ -141,7 +142,7 @@ void DinIsoProgram::indexLabels() {
 
 std::optional<BlockPosition> DinIsoProgram::findLabel(std::string_view label, BlockPosition, JumpDirection) {
   if (!labelsIndexed_) indexLabels();
-  const auto found = labels_.find(std::string(klartext::canonicalLabel(label)));
+  const auto found = klartext::findIn(labels_, label);
   if (found == labels_.end()) return std::nullopt;
   return found->second;
 }

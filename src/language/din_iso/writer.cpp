@@ -85,7 +85,7 @@ private:
     if (computed.present()) return writeFormula(block_, computed);
     const std::string_view name = at(text);
     const bool number = !name.empty() && std::ranges::all_of(name, isDigit);
-    return number ? std::string(name) : fmt::format("\"{}\"", name);
+    return number || name.starts_with('"') ? std::string(name) : fmt::format("\"{}\"", name);
   }
 
   /// Writes G90 or G91 where it changes within the block, and always before the block's first coordinate.

@@ -8,8 +8,13 @@ namespace probewright::language::klartext {
 
 bool BlockParser::labelName(TextRef& label, Operand& labelValue) {
   if (const std::optional<std::string_view> name = lexer_.quoted()) {
-    label = ref(*name);
-    if (label.length == 0) return error("a label name may not be empty");
+    if (name->empty()) return error("a label name may not be empty");
+    const std::string named = namedLabel(*name);
+    const bool marks = named != *name;
+    const bool asWritten = marks && *(name->data() - 1) == '"' && *(name->data() + name->size()) == '"';
+    label = !marks      ? ref(*name)
+            : asWritten ? ref(std::string_view(name->data() - 1, name->size() + 2))
+                        : block_.add(named);
     return true;
   }
   if (isDigit(lexer_.peek())) {

@@ -89,7 +89,7 @@ private:
 
   static std::string quoted(const std::string& label) {
     const bool number = std::ranges::all_of(label, isDigit);
-    return number ? label : "\"" + label + "\"";
+    return number || label.starts_with('"') ? label : "\"" + label + "\"";
   }
 
   std::string lineText(std::uint32_t below) const {
@@ -206,8 +206,9 @@ private:
       reportHere("label 0 ends subprograms and cannot be called", "call the label of a subprogram");
       return;
     }
-    // Labels lie in the block's own text.
-    uses_.push_back({std::string(name), block_.position.line, label.offset + 1, lineText(0)});
+    // Labels lie in the block's own text, but for names of digits in typographic quotation marks.
+    const std::uint32_t column = label.offset < block_.source.length ? label.offset + 1 : 1;
+    uses_.push_back({std::string(name), block_.position.line, column, lineText(0)});
   }
 
   /// A program that is called or selected by its name.

@@ -1,5 +1,10 @@
 #include "language/klartext/program.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/text.hpp"
 #include "language/klartext/block_extent.hpp"
 #include "language/klartext/lexer.hpp"
 #include "language/klartext/parser.hpp"
@@ -13,6 +18,11 @@ std::string_view canonicalLabel(std::string_view label) {
   while (number && label.size() > 1 && label.front() == '0')
     label.remove_prefix(1);
   return label;
+}
+
+std::string namedLabel(std::string_view name) {
+  const bool digits = !name.empty() && std::ranges::all_of(name, isDigit);
+  return digits ? fmt::format("\"{}\"", name) : std::string(name);
 }
 
 KlartextProgram::KlartextProgram(std::string file, std::string text)
@@ -120,8 +130,8 @@ void KlartextProgram::indexLabels() {
         upper(statement[2]) == 'L') {
       Lexer lexer(statement.substr(3));
       const std::optional<std::string_view> quoted = lexer.quoted();
-      const std::string_view label = quoted ? *quoted : canonicalLabel(lexer.chunk());
-      if (!label.empty() && label != "0") labels_[std::string(label)].push_back(position);
+      const std::string label = quoted ? namedLabel(*quoted) : std::string(canonicalLabel(lexer.chunk()));
+      if (!label.empty() && label != "0") labels_[label].push_back(position);
     }
     position = next;
   }
@@ -129,7 +139,7 @@ void KlartextProgram::indexLabels() {
 
 std::optional<BlockPosition> KlartextProgram::findLabel(std::string_view label, BlockPosition, JumpDirection) {
   if (!labelsIndexed_) indexLabels();
-  const auto found = labels_.find(std::string(canonicalLabel(label)));
+  const auto found = findIn(labels_, label);
   if (found == labels_.end()) return std::nullopt;
   return found->second.front();
 }

@@ -60,5 +60,14 @@ private:
 
 /// The label that a LBL block's text after LBL names, as findLabel knows it: leading zeros of numbers removed.
 std::string_view canonicalLabel(std::string_view label);
+/// The label with this name in quotation marks, as findLabel knows it: names of digits alone keep the marks, as LBL "5"
+/// is another label than LBL 5.
+std::string namedLabel(std::string_view name);
+/// Where that label is, for a text that a parameter holds as well: a number of that text comes first.
+template <class Labels>
+auto findIn(const Labels& labels, std::string_view label) {
+  const auto found = labels.find(std::string(canonicalLabel(label)));
+  return found == labels.end() ? labels.find(namedLabel(label)) : found;
+}
 
 }  // namespace probewright::language::klartext

@@ -27,8 +27,6 @@ bool isCycle(int number) {
   return std::ranges::any_of(ranges, [&](const auto& r) { return number >= r.first && number <= r.second; });
 }
 
-bool isQuoted(const Block& block, TextRef label) { return label.offset > 0 && block.text[label.offset - 1] == '"'; }
-
 std::span<const Word> wordsOf(const Block& block, WordRange range) {
   return std::span<const Word>(block.words).subspan(range.first, range.count);
 }
@@ -47,21 +45,7 @@ std::vector<StatementNotes::Note> StatementNotes::of(const Block& block) {
   return std::exchange(notes_, {});
 }
 
-/// LBL 5 and LBL "5" are two labels on the control, and one here.
-void StatementNotes::label(const Block& block, TextRef label) {
-  const std::string_view name = block.at(label);
-  if (name.empty() || !std::ranges::all_of(name, isDigit)) return;
-  const auto [known, added] = quoted_.emplace(name, isQuoted(block, label));
-  if (added || known->second == isQuoted(block, label)) return;
-  note(Severity::Warning,
-       fmt::format("label {} is written with and without quotation marks: two labels on the control, one here", name),
-       "write it the same way everywhere, or give it a name with a letter");
-}
-
-void StatementNotes::look(const Block& block, const CallLabel& call) {
-  label(block, call.label);
-  toolAxis_ = poleAxis_ = 0;
-}
+void StatementNotes::look(const Block&, const CallLabel&) { toolAxis_ = poleAxis_ = 0; }
 
 void StatementNotes::look(const Block&, const CallProgram&) { toolAxis_ = poleAxis_ = 0; }
 
@@ -110,13 +94,10 @@ void StatementNotes::mixture(const Block& block, const Move& move) {
   }
 }
 
-void StatementNotes::look(const Block& block, const Jump& jump) { label(block, jump.label); }
-
 void StatementNotes::look(const Block& block, const LabelMark& mark) {
   toolAxis_ = poleAxis_ = 0;
-  label(block, mark.label);
   const std::string_view label = block.at(mark.label);
-  if (!std::ranges::all_of(label, isDigit) || isQuoted(block, mark.label)) return;
+  if (!std::ranges::all_of(label, isDigit)) return;
   const int highest = kind_ == control::ControlKind::TNC640 ? 65535 : 999;
   const auto number = parseInteger(label);
   if (number && *number <= highest) return;

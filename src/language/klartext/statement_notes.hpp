@@ -26,7 +26,6 @@ public:
 private:
   void look(const Block& block, const LabelMark& mark);
   void look(const Block& block, const CallLabel& call);
-  void look(const Block& block, const Jump& jump);
   void look(const Block& block, const Command& command);
   void look(const Block& block, const CycleCall& call);
   void look(const Block& block, const Transform& transform);
@@ -39,7 +38,6 @@ private:
   void mixture(const Block& block, const Move& move);
   template <class Other>
   void look(const Block&, const Other&) {}
-  void label(const Block& block, TextRef label);
   void systemDatum(const Block& block, const Command& command);
   void globalDefinition(const Block& block, const Command& command);
   void printed(std::string_view text);
@@ -49,7 +47,6 @@ private:
   }
 
   control::ControlKind kind_;
-  std::map<std::string, bool, std::less<>> quoted_;  ///< labels of digits only, and how they stood first
   /// The axis along the tool, and the one square to the plane of the last CC; 0: not known without a run.
   char toolAxis_ = 0, poleAxis_ = 0;
   std::string corner_;   ///< RND or CHF that waits for the element after it

@@ -73,7 +73,7 @@ private:
   }
   std::string label(TextRef text, const Operand& computed) const {
     if (computed.present()) return writeFormula(block_, computed);
-    if (isNumberLabel(at(text))) return std::string(at(text));
+    if (isNumberLabel(at(text)) || at(text).starts_with('"')) return std::string(at(text));
     return fmt::format("\"{}\"", at(text));
   }
 
