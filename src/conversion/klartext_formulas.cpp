@@ -211,7 +211,7 @@ std::string KlartextFormulas::userVariable(const Block& block, const VariableRef
     const std::string parameter = define(element, isText(value) ? Holds::Text : Holds::Number);
     globalValues_.push_back(fmt::format(
         "{} = {} ; {}", parameter,
-        isText(value) ? fmt::format("\"{}\"", std::get<std::string>(value)) : numberText(std::get<double>(value)),
+        isText(value) ? fmt::format("\"{}\"", std::get<std::string>(value)) : exactText(std::get<double>(value)),
         element));
     return parameter;
   } catch (const control::Alarm&) {
@@ -234,7 +234,9 @@ std::string KlartextFormulas::systemDatum(const Block& block, const VariableRef&
   };
   if (name == "$P_TOOLR") return toolLength("Q108");
   if (name == "$P_TOOLL" && variable.index[0].isLiteral() && variable.index[0].number == 1) return toolLength("Q114");
-  if (name == "$SNS_MEA_WP_BALL_DIAM") return fmt::format("(2 * {})", read("ID350 NR52 IDX1"));
+  const bool first = variable.index[0].isLiteral() && variable.index[0].number == 0;
+  if (name == "$PI") return "PI";
+  if (name == "$SNS_MEA_WP_BALL_DIAM" && first) return fmt::format("(2 * {})", read("ID350 NR52 IDX1"));
   if (name == "$P_UIFRNUM") return read("ID530 NR1");
   if ((name == "$AA_IW" || name == "$P_EP") && axisNumber(word(0)) != 0) {
     return readLength(fmt::format("ID270 NR1 IDX{}", axisNumber(word(0))));
@@ -324,17 +326,25 @@ std::string KlartextFormulas::unsignedValue(const Quantity& quantity) {
   return text.front() == '+' ? text.substr(1) : text;
 }
 
+std::string KlartextFormulas::comparedValue(const Block& block, const Operand& operand) {
+  const std::string text = formula(block, operand);
+  const bool negative = text.starts_with('-');
+  const std::string_view amount = std::string_view(text).substr(negative ? 1 : 0);
+  if (!isParameter(amount) && !parseDecimal(amount)) return fmt::format("+{}", helper(text));
+  return negative ? text : fmt::format("+{}", text);
+}
+
 std::string KlartextFormulas::formula(const Block& block, const Operand& operand) {
-  if (operand.isLiteral()) return numberText(operand.number);
+  if (operand.isLiteral()) return exactText(operand.number);
   if (!operand.present()) return {};
   const Node& node = block.nodes[static_cast<std::size_t>(operand.node)];
   const auto factor = [&](const Operand& side) {
-    if (side.isLiteral() && side.number < 0) return fmt::format("({})", numberText(side.number));
+    if (side.isLiteral() && side.number < 0) return fmt::format("({})", exactText(side.number));
     return factorText(formula(block, side));
   };
   switch (node.operation) {
     case Operation::Number:
-      return numberText(node.number);
+      return exactText(node.number);
     case Operation::Text:
       return fmt::format("\"{}\"", block.at(node.text));
     case Operation::Variable:
@@ -391,8 +401,11 @@ std::string KlartextFormulas::call(const Block& block, const Node& node) {
     }
     case Function::Maximum:
     case Function::Minimum:
-      return fmt::format("((({0}) + ({1})) / 2 {2} ABS (({0}) - ({1})) / 2)", argument(0), argument(1),
-                         node.function == Function::Maximum ? '+' : '-');
+      // One of the two, times 1 and not rounded; the other times 0.
+      return fmt::format("({0} * ((1 {2} SGN ({0} - {1})) / 2) + {1} * ((1 {3} SGN ({0} - {1})) / 2))",
+                         factorText(argument(0)), factorText(argument(1)),
+                         node.function == Function::Maximum ? '+' : '-',
+                         node.function == Function::Maximum ? '-' : '+');
     case Function::Round:
       return fmt::format("INT ({0} + SGN ({0}) * 0.5)", factorText(argument(0)));
     case Function::Host:

@@ -47,7 +47,9 @@ public:
   /// A number or a parameter with its sign, as coordinates are written: "+5", "-Q3". Everything else is computed in
   /// front of the block into a parameter of the converter's own.
   std::string value(const Quantity& quantity);
-  /// The same without "+".
+  /// A side of a comparison: the same, with every digit of the program.
+  std::string comparedValue(const language::Block& block, const language::Operand& operand);
+  /// The value without "+".
   std::string unsignedValue(const Quantity& quantity);
 
   /// The entry of the tool table, as FN 17 and FN 18 name it, that $TC_DPx[t,1] has; empty for other variables.

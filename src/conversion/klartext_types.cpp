@@ -62,7 +62,7 @@ std::string KlartextFormulas::assigned(const Block& block, const VariableRef& va
       return isTruth(block, operand) ? text : fmt::format("ABS (SGN {})", factorText(text));
     case Type::Int: {
       if (isWhole(block, operand)) return text;
-      if (operand.isLiteral()) return numberText(std::floor(operand.number + 0.5));
+      if (operand.isLiteral()) return exactText(std::floor(operand.number + 0.5));
       // Halves go up, of negative numbers too; INT of Klartext leaves the decimals off.
       const std::string above = helper(fmt::format("{} + 0.5", text));
       return fmt::format("INT {0} + INT ((SGN (FRAC {0}) - 1) / 2)", above);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/text.hpp"
 #include "conversion/to_klartext.hpp"
 #include "conversion/to_sinumerik.hpp"
 #include "language/klartext/commands.hpp"
@@ -129,6 +130,23 @@ bool ToKlartext::deselectsPlane(const Block& block, const CallProgram& call) {
          });
 }
 
+void ToKlartext::listOtherDataSet(const Block& block, const CallProgram& call) {
+  const auto words = std::span<const Word>(block.words).subspan(call.arguments.first, call.arguments.count);
+  const auto found = std::ranges::find(words, 1U, &Word::address);
+  if (found == words.end() || found->value.node < 0) return;
+  const Node& node = block.nodes[static_cast<std::size_t>(found->value.node)];
+  const std::string name =
+      node.operation == Operation::Text ? upperCase(block.at(node.text)) : std::string("a variable");
+  if (name.empty() || name == "0") return;
+  if (swivelDataSet_.empty()) swivelDataSet_ = name;
+  if (name == swivelDataSet_) return;
+  out_.list(block,
+            fmt::format("_TC: this program swivels by more than one data set ({}, {}), a HEIDENHAIN control by the "
+                        "kinematics that is active",
+                        swivelDataSet_, name),
+            "select the kinematics of the head or table by hand before this block");
+}
+
 void ToKlartext::swivel(const Block& block, const CallProgram& call) {
   const auto words = std::span<const Word>(block.words).subspan(call.arguments.first, call.arguments.count);
   const auto argument = [&](std::uint32_t place, double otherwise = 0) {
@@ -166,6 +184,7 @@ void ToKlartext::swivel(const Block& block, const CallProgram& call) {
                            "retract the tool before the call, and write _FR = 0");
   }
   forgetPosition();
+  listOtherDataSet(block, call);
   if (deselectsPlane(block, call)) {
     if (!retraction.empty()) line(fmt::format("L {} FMAX M140 {}", compensation_, retraction));
     if (!frameIsNone()) {

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 
 #include "base/number_text.hpp"
@@ -64,6 +66,14 @@ std::string numberText(double number) {
     return text;
   }
   return formatShortest(rounded);
+}
+
+std::string exactText(double number) {
+  constexpr std::size_t longest = 400;  // of a number of the type double without exponent
+  std::array<char, longest> digits{};
+  const auto [end, error] =
+      std::to_chars(digits.data(), digits.data() + digits.size(), number == 0 ? 0 : number, std::chars_format::fixed);
+  return error == std::errc() ? std::string(digits.data(), end) : numberText(number);
 }
 
 namespace {

@@ -49,7 +49,9 @@ std::string expressionText(const Quantity& quantity);
 /// The same with blanks around operators, as Klartext formulas are written.
 std::string spacedExpressionText(const Quantity& quantity);
 
-/// The number, rounded to what programs can tell (1e-9), without exponent.
+/// The number, rounded to what coordinates can tell (1e-9), without exponent.
 std::string numberText(double number);
+/// The shortest text that reads back as the same number, without exponent: for what a program computes with.
+std::string exactText(double number);
 
 }  // namespace probewright::conversion

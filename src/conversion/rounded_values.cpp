@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <variant>
 
 namespace probewright::conversion {
@@ -60,6 +61,14 @@ RoundedValues::RoundedValues(Program& program, const Job& job) {
   }
 }
 
+RoundedValues::Kind RoundedValues::kindOf(double written) {
+  if (isWhole(written)) return Kind::Whole;
+  constexpr double finest = 1e-9;  // what has more decimals comes as near to another number as a rounding does
+  const double decimals = written / finest;
+  const double slack = 4 * std::numeric_limits<double>::epsilon() * std::abs(decimals);
+  return std::abs(decimals - std::round(decimals)) <= slack ? Kind::Written : Kind::Rounded;
+}
+
 RoundedValues::Kind RoundedValues::kindOf(const Block& block, const VariableRef& variable) const {
   const int number = numberOf(variable);
   if (variable.space == VariableSpace::System) return Kind::Measured;
@@ -72,13 +81,13 @@ RoundedValues::Kind RoundedValues::kindOf(const Block& block, const VariableRef&
 }
 
 RoundedValues::Kind RoundedValues::kindOf(const Block& block, const Operand& operand) const {
-  if (operand.isLiteral()) return isWhole(operand.number) ? Kind::Whole : Kind::Written;
+  if (operand.isLiteral()) return kindOf(operand.number);
   if (!operand.present()) return Kind::Whole;
   const Node& node = block.nodes[static_cast<std::size_t>(operand.node)];
   const auto computed = [](Kind of) { return of == Kind::Written ? Kind::Rounded : of; };
   switch (node.operation) {
     case Operation::Number:
-      return isWhole(node.number) ? Kind::Whole : Kind::Written;
+      return kindOf(node.number);
     case Operation::Variable:
       return kindOf(block, block.variables[node.a]);
     case Operation::Negate:

@@ -32,6 +32,7 @@ private:
   };
 
   Kind kindOf(const language::Block& block, const language::Operand& operand) const;
+  static Kind kindOf(double written);
   Kind kindOf(const language::Block& block, const language::VariableRef& variable) const;
 
   std::map<std::string, Kind, std::less<>> kinds_;  ///< of variables that are assigned

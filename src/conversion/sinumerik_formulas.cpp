@@ -141,12 +141,10 @@ std::string SinumerikFormulas::variable(const VariableRef& variable) {
 }
 
 std::string SinumerikFormulas::formula(const Block& block, const Operand& operand) {
-  if (operand.isLiteral()) return sinumerikText(operand.number);
+  if (const auto constant = constantOf(block, operand)) return exactText(*constant);
   if (!operand.present()) return {};
   const Node& node = block.nodes[static_cast<std::size_t>(operand.node)];
   switch (node.operation) {
-    case Operation::Number:
-      return sinumerikText(node.number);
     case Operation::Text:
       return fmt::format("\"{}\"", block.at(node.text));
     case Operation::Variable:
@@ -180,11 +178,7 @@ std::string SinumerikFormulas::factor(const Block& block, const Operand& side) {
 
 std::string SinumerikFormulas::power(const Block& block, const Node& node) {
   constexpr double largestProduct = 16;
-  const auto base = constantOf(block, node.left), exponent = constantOf(block, node.right);
-  if (base && exponent && std::isfinite(std::pow(*base, *exponent))) {
-    const double value = std::pow(*base, *exponent);
-    return sinumerikText(value);
-  }
+  const auto exponent = constantOf(block, node.right);
   if (exponent && *exponent == 0) return "1";
   if (exponent && *exponent == 0.5) return fmt::format("SQRT({})", formula(block, node.left));
   if (exponent && *exponent == std::trunc(*exponent) && std::abs(*exponent) <= largestProduct) {

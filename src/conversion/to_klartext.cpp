@@ -285,7 +285,7 @@ void ToKlartext::changeTool() {
     throw NotCarriedOver("the tool axis depends on the path that leads to this block",
                          "program G17, G18 or G19 before it");
   line(fmt::format("TOOL CALL {} {}", pendingTool_, toolAxis_));
-  withoutLength_ = false;
+  withoutLength_ = measuredWithTool_ = false;
   tool_ = std::exchange(pendingTool_, {});
   forgetPosition();
 }
@@ -314,6 +314,8 @@ void ToKlartext::modal(const Block& block, const Modal& modal) {
     restoreFrame();
     return;
   }
+  if (const SelectedUnit unit = unitOf(block, modal); unit != SelectedUnit::None)
+    selectsMetric_ = unit == SelectedUnit::Millimetre;
   if ((name == "G71" || name == "G710") && millimetre_ != 1) {
     throw NotCarriedOver("this program counts in inches as well, and a HEIDENHAIN program has one unit",
                          "measure in one unit throughout");

@@ -125,8 +125,12 @@ private:
   // to_klartext_variables.cpp
   void assign(const language::Block& block, const language::Assign& assign);
   /// A component of $P_UIFR: a translation or the rotation about the tool axis.
-  /// True if a zero offset is selected below the block before anything moves, or nothing does.
-  bool selectsBeforeItMoves(const language::Block& block);
+  /// The tool that an index of $TC_DP.. names may be the one in the spindle.
+  bool mayBeInSpindle(const language::Block& block, const language::Operand& tool);
+  /// What a block has written: it acts when a zero offset is selected, or an edge.
+  enum class Acts : std::uint8_t { ZeroOffset, ToolDatum };
+  /// True if that is done below the block before anything moves or reads where the tool is, or nothing does.
+  bool actsBeforeItMoves(const language::Block& block, Acts what);
   void assignFrameComponent(const language::Block& block, const language::Assign& assign);
   void define(const language::Block& block, const language::Command& command);
 
@@ -161,6 +165,8 @@ private:
 
   // planes.cpp
   void swivel(const language::Block& block, const language::CallProgram& call);
+  /// Lists another swivel data set (_TC) than the first one that the program names.
+  void listOtherDataSet(const language::Block& block, const language::CallProgram& call);
   /// CYCLE800() and _TC = "0": the frames of the program and the rotary axes stay.
   static bool deselectsPlane(const language::Block& block, const language::CallProgram& call);
 
@@ -170,6 +176,14 @@ private:
   // to_klartext_moves.cpp
   void move(const language::Block& block, const language::Move& move);
   void arc(const language::Block& block, const language::Move& move, bool clockwise);
+  /// RND and CHR, at the end of the path in this block.
+  void corner(const language::Block& block, std::span<const language::Word> words);
+  struct NextPath {
+    std::optional<language::MoveKind> kind;  ///< nothing: as the active G function says
+    bool hasFeed = false;
+  };
+  /// The next path in the text of the program.
+  std::optional<NextPath> nextPath(const language::Block& block);
   /// D1 and the like stand in the block.
   bool callsEdge(const language::Block& block);
   std::string coordinate(const language::Block& block, const language::Word& word);
@@ -269,6 +283,7 @@ private:
   bool changesTool_ = false;                            ///< by M6
   std::string endLabel_;                                ///< where early returns jump to; empty: there are none
   double millimetre_ = 1;                               ///< in the unit of the program
+  bool selectsMetric_ = false;                          ///< the last block that selects a unit selects millimetres
   Units units_;                                         ///< that the program selects
   std::map<std::string, Units> unitsOf_;                ///< that others of the job select, by their name in capitals
   bool unitDoubtful_ = false;                           ///< and not listed yet
@@ -299,6 +314,7 @@ private:
   bool incremental_ = false;
   std::string compensation_ = "R0";
   std::string pendingTool_, tool_;  ///< to be changed to, in the spindle
+  bool measuredWithTool_ = false;   ///< a cycle has measured with the tool in the spindle
   std::optional<int> activeRow_;
   std::set<int> selectedRows_;  ///< on every way to this block
   LackingRows lackingRows_;
@@ -321,6 +337,7 @@ private:
   std::vector<Open> open_;
   std::set<std::string> changedGlobals_;
   std::set<std::uint8_t> skipLevels_;  ///< listed
+  std::string swivelDataSet_;          ///< in capitals; empty: none is named yet
   double listedReach_ = 0;             ///< the longest that is listed
 };
 

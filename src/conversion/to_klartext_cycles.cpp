@@ -115,7 +115,7 @@ void ToKlartext::requireReach(const Block& block, const MeasuringTask& task) {
               "make sure that DIST of the touch probe table is at least twice S_FA");
     return;
   }
-  const double length = reach.number() / millimetre_;
+  const double length = reach.number() / (selectsMetric_ ? 1 : millimetre_);
   if (length <= std::max(probe_.travel, listedReach_) + 1e-6) return;
   listedReach_ = length;
   out_.list(
@@ -244,6 +244,7 @@ void ToKlartext::correctTool(const MeasuringTask& task, const Results& results) 
 
 void ToKlartext::cycle(const Block& block, const CallProgram& called) {
   const cycles::CycleDefinition* definition = cycles::sinumerikCycle(block.at(called.name));
+  measuredWithTool_ = measuredWithTool_ || definition->number != 150;
   Call call;
   call.cycle = definition->name;
   call.millimetre = millimetre_;

@@ -56,7 +56,7 @@ std::string ToKlartext::comparable(const Block& block, const Operand& operand) {
     line(fmt::format("{} = {}", own, text));
     return fmt::format("+{}", own);
   }
-  return formulas_.value(quantity(block, operand));
+  return formulas_.comparedValue(block, operand);
 }
 
 void ToKlartext::jumpWhen(When when, const Block& block, const Operand& condition, const std::string& label) {

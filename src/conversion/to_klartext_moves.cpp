@@ -49,8 +49,7 @@ std::string ToKlartext::coordinate(const Block& block, const Word& word) {
   const Quantity value = quantity(block, word.value);
   rely(block, incrementalDoubtful_ && word.mode == WordMode::Plain, "G90 or G91");
   const bool incremental = word.mode == WordMode::Incremental || (word.mode == WordMode::Plain && incremental_);
-  if (!incremental && word.address >= 'A' && word.address <= 'C' && isBeyondATurn(value))
-    out_.list(block, beyondATurn, withinATurn);
+  if (word.address >= 'A' && word.address <= 'C' && isBeyondATurn(value)) out_.list(block, beyondATurn, withinATurn);
   if (std::exchange(besideMeasured_, besideMeasured_ && incremental) && incremental) {
     out_.list(block, "this counts from where the probe was touched, but the stylus has been retracted",
               "give the coordinate as an absolute one");
@@ -103,6 +102,13 @@ void ToKlartext::move(const Block& block, const Move& move) {
       throw NotCarriedOver(fmt::format("{} in a motion block has no twin in Klartext", address));
     }
   }
+  const bool ofCorner = !words.empty() && std::ranges::all_of(words, [](const Word& word) {
+    const std::string address = addressName(word.address);
+    return address == "RND" || address == "CHR" || address == "FRC";
+  });
+  if (ofCorner)
+    throw NotCarriedOver("RND, CHR and FRC without a path in their block have no twin in Klartext",
+                         "write them in the block of the path that the corner ends");
   const bool shortest = goesShortestWay(words);
   const auto given = [&](std::size_t index) { return find(words, axis(index)) != nullptr; };
   if (!onMachine && given(2) && withoutLength_ != std::optional(false) && !callsEdge(block)) {
@@ -155,15 +161,57 @@ void ToKlartext::move(const Block& block, const Move& move) {
     default:
       throw NotCarriedOver("this path function has no twin in Klartext", "write lines and arcs");
   }
+  corner(block, words);
+  if (shortest) line("M127");
+}
+
+void ToKlartext::corner(const Block& block, std::span<const Word> words) {
   const Word* cornerFeed = find(words, "FRC");
   const std::string slow = cornerFeed == nullptr ? "" : feedWord(block, cornerFeed->value);
-  if (const Word* round = find(words, "RND")) {
+  const Word* round = find(words, "RND");
+  const Word* chamfer = find(words, "CHR");
+  if (round == nullptr && chamfer == nullptr) {
+    if (cornerFeed != nullptr) out_.lose(block, "FRC without RND or CHR in its block");
+    return;
+  }
+  const std::optional<NextPath> next = nextPath(block);
+  const MoveKind kind = next ? next->kind.value_or(motion_) : motion_;
+  if (motion_ == MoveKind::Rapid || kind == MoveKind::Rapid) {
+    out_.list(block, "a corner between paths at rapid traverse is travelled at another speed on a HEIDENHAIN control",
+              "give the paths before and after the corner a feed");
+  } else if (cornerFeed == nullptr && next && next->hasFeed) {
+    out_.list(block,
+              "this corner is travelled at the feed of the path after it, on a HEIDENHAIN control at that of the path "
+              "before it",
+              "write the feed of the corner (FRC) in this block");
+  }
+  if (round != nullptr) {
     line(fmt::format("RND R{}{}", formulas_.unsignedValue(quantity(block, round->value)), slow));
   }
-  if (const Word* chamfer = find(words, "CHR")) {
+  if (chamfer != nullptr) {
     line(fmt::format("CHF {}{}", formulas_.unsignedValue(quantity(block, chamfer->value)), slow));
   }
-  if (shortest) line("M127");
+}
+
+std::optional<ToKlartext::NextPath> ToKlartext::nextPath(const Block& block) {
+  Block next;
+  Diagnostics ignored;
+  NextPath path;
+  for (BlockPosition at = block.next; program_.parse(at, next, ignored); at = next.next) {
+    for (const Instruction& instruction : next.instructions) {
+      const auto* modal = std::get_if<Modal>(&instruction);
+      const std::string_view name = modal == nullptr ? std::string_view() : next.at(modal->name);
+      if (name == "F") path.hasFeed = true;
+      if (name == "G0") path.kind = MoveKind::Rapid;
+      if (name == "G1" || name == "G2" || name == "G3") path.kind = MoveKind::Linear;
+      const auto* move = std::get_if<Move>(&instruction);
+      if (move == nullptr) continue;
+      if (move->kind != MoveKind::Modal) path.kind = move->kind;
+      path.hasFeed = path.hasFeed || move->feed.present();
+      return path;
+    }
+  }
+  return std::nullopt;
 }
 
 void ToKlartext::arc(const Block& block, const Move& move, bool clockwise) {

@@ -24,6 +24,12 @@ void ToKlartext::assign(const Block& block, const Assign& assign) {
   if (variable.space == VariableSpace::System) {
     const std::string value = formulas_.value(quantity(block, assign.value));
     if (const std::string datum = formulas_.toolDatum(block, variable); !datum.empty()) {
+      if (mayBeInSpindle(block, variable.index[0]) && !actsBeforeItMoves(block, Acts::ToolDatum)) {
+        out_.list(
+            block,
+            "a tool datum acts with the next D or T, on a HEIDENHAIN control at once if the tool is in the spindle",
+            "call the edge after this block (D1)");
+      }
       return line(fmt::format("FN 17: SYSWRITE {} = {}", datum, value));
     }
     throw NotCarriedOver(fmt::format("{} cannot be written in Klartext", block.at(variable.name)));
@@ -58,7 +64,7 @@ void ToKlartext::assignFrameComponent(const Block& block, const Assign& assign) 
   const Quantity value = quantity(block, assign.value);
   forgetPosition();
   const bool inEffect = active || (activeRow_ && number == *activeRow_);
-  if ((inEffect || !activeRow_ || !number.isNumber()) && !selectsBeforeItMoves(block)) {
+  if ((inEffect || !activeRow_ || !number.isNumber()) && !actsBeforeItMoves(block, Acts::ZeroOffset)) {
     out_.list(block, "what a zero offset is set to acts when it is selected the next time, a preset acts at once",
               "select the zero offset again after this block (G54)");
   }
@@ -101,9 +107,23 @@ void ToKlartext::assignFrameComponent(const Block& block, const Assign& assign) 
   if (!inEffect) line(fmt::format("PRESET SELECT #{} KEEP TRANS", before));
 }
 
-bool ToKlartext::selectsBeforeItMoves(const Block& block) {
+bool ToKlartext::mayBeInSpindle(const Block& block, const Operand& tool) {
+  if (measuredWithTool_) return false;  // what is corrected is another tool than the touch probe
+  const Node* node = tool.node >= 0 ? &block.nodes[static_cast<std::size_t>(tool.node)] : nullptr;
+  if (node == nullptr) return !isDigit(tool_.empty() ? '"' : tool_[0]) || tool_ == exactText(tool.number);
+  const bool named = node->operation == Operation::Call && block.at(node->text) == "GETT";
+  return !named || formulas_.formula(block, block.operands[node->a]) == tool_;
+}
+
+bool ToKlartext::actsBeforeItMoves(const Block& block, Acts what) {
   const std::optional<std::size_t> own = graph_.at(block.position);
   if (!own) return false;
+  const auto readsPosition = [](const Block& each) {
+    return std::ranges::any_of(each.variables, [&](const VariableRef& variable) {
+      const std::string_view name = each.at(variable.name);
+      return name == "$AA_IW" || name == "$P_EP";
+    });
+  };
   const auto isSilent = [](const Block& next, const Instruction& instruction) {
     const auto* command = std::get_if<Command>(&instruction);
     static constexpr std::string_view silent[] = {"MSG", "STOPRE", "DEF", "WORKPIECE"};
@@ -111,19 +131,23 @@ bool ToKlartext::selectsBeforeItMoves(const Block& block) {
            std::holds_alternative<MachineFunction>(instruction) ||
            (command != nullptr && std::ranges::find(silent, next.at(command->name)) != std::end(silent));
   };
-  const auto selects = [](const Block& each, const Instruction& instruction) {
+  const auto acts = [what](const Block& each, const Instruction& instruction) {
     const auto* modal = std::get_if<Modal>(&instruction);
-    return modal != nullptr && settableOf(each.at(modal->name));
+    const auto* function = std::get_if<MachineFunction>(&instruction);
+    constexpr int toolChange = 6;
+    if (what == Acts::ZeroOffset) return modal != nullptr && settableOf(each.at(modal->name)).has_value();
+    return std::holds_alternative<ToolCall>(instruction) || (modal != nullptr && each.at(modal->name) == "D") ||
+           (function != nullptr && function->number == toolChange);
   };
-  if (std::ranges::any_of(block.instructions, [&](const Instruction& each) { return selects(block, each); }))
-    return true;
+  if (std::ranges::any_of(block.instructions, [&](const Instruction& each) { return acts(block, each); })) return true;
   Block next;
   Diagnostics ignored;
   for (std::size_t i = *own + 1; i < graph_.blocks().size(); ++i) {
     program_.parse(graph_.blocks()[i].position, next, ignored);
-    if (trimmed(next.at(next.source), lineBlanks) == selectedAgain) return true;
+    if (what == Acts::ZeroOffset && trimmed(next.at(next.source), lineBlanks) == selectedAgain) return true;
+    if (readsPosition(next)) return false;
     for (const Instruction& instruction : next.instructions) {
-      if (selects(next, instruction)) return true;
+      if (acts(next, instruction)) return true;
       if (std::holds_alternative<EndProgram>(instruction)) return true;
       if (!isSilent(next, instruction)) return false;
     }
@@ -137,7 +161,11 @@ void ToKlartext::define(const Block& block, const Command& command) {
   const std::string own(block.at(variable.name));
   const std::string_view type = block.at(command.text);
   if (type == "FRAME" || type == "AXIS") throw NotCarriedOver("variables for frames and axes have no twin in Klartext");
-  const bool isText = type == "STRING" || type == "CHAR";
+  if (type == "CHAR") {
+    throw NotCarriedOver("variables of type CHAR are characters and numbers at once, which no parameter is",
+                         "define it as INT or as STRING[1]");
+  }
+  const bool isText = type == "STRING";
   formulas_.declare(own, type);
   std::vector<std::string> elements = {own};
   for (std::size_t i = 0; i < 3 && variable.index[i].present(); ++i) {

@@ -195,8 +195,10 @@ void ToSinumerik::write(const Block& block) {
     out_.list(block, "row 99 becomes G599, which also stands for row 0 of this job", "use another row than 99");
   }
   try {
-    for (const Instruction& each : block.instructions)
+    for (const Instruction& each : block.instructions) {
+      listCompensation(block, each);
       instruction(block, each);
+    }
     const bool isCycle = std::ranges::any_of(
         block.instructions, [](const Instruction& each) { return std::holds_alternative<CycleCall>(each); });
     std::string remark = isCycle ? std::string() : klartext::commentOf(block);
@@ -319,6 +321,7 @@ void ToSinumerik::toolCall(const Block& block, const ToolCall& call) {
     technology += fmt::format("S{}{}", speed.isNumber() ? "" : "=", sinumerikText(speed));
   }
   if (call.feed.present()) {
+    feedOfOtherKind_ = false;
     const Quantity path = feed(block, call.feed);
     technology +=
         fmt::format("{}F{}{}", technology.empty() ? "" : " ", path.isNumber() ? "" : "=", sinumerikText(path));
@@ -354,9 +357,9 @@ void ToSinumerik::machineFunction(const Block& block, const MachineFunction& fun
     case 129:
       return out_.line("TRAFOOF");
     case 136:
-      return out_.line("G95");
     case 137:
-      return out_.line("G94");
+      feedOfOtherKind_ = true;
+      return out_.line(function.number == 136 ? "G95" : "G94");
     default:
       throw NotCarriedOver(fmt::format("M{} means something else on a SINUMERIK, or nothing", function.number),
                            "see the machine's own list of M functions");
@@ -423,8 +426,8 @@ void ToSinumerik::command(const Block& block, const Command& command) {
     return found == words.end() ? Quantity(otherwise) : quantity(block, found->value);
   };
   if (kind == klartext::CommandKind::Fn17 && wordOr("ID", 0) == 50) {
-    return out_.line(
-        fmt::format("{}={}", toolDatum(wordOr("NR", 0), wordOr("IDX", 0)), sinumerikText(wordOr("VAL", 0))));
+    out_.line(fmt::format("{}={}", toolDatum(wordOr("NR", 0), wordOr("IDX", 0)), sinumerikText(wordOr("VAL", 0))));
+    return callEdgeAgain();  // with it the datum takes effect
   }
   if (kind == klartext::CommandKind::Fn18 && command.variable >= 0) {
     const Quantity id = wordOr("ID", 0), index = wordOr("IDX", 0);
@@ -441,7 +444,7 @@ void ToSinumerik::command(const Block& block, const Command& command) {
                                    millimetre_ == 1 ? std::string() : fmt::format("*{}", numberText(1 / millimetre_))));
     }
     if (id == 50) return out_.line(fmt::format("{}={}", target, toolDatum(wordOr("NR", 0), index)));
-    if (id == 530) return out_.line(fmt::format("{}=$P_UIFRNUM", target));
+    if (id == 530 && wordOr("NR", 0) == 1) return out_.line(fmt::format("{}=$P_UIFRNUM", target));
   }
   throw NotCarriedOver(fmt::format("{} has no twin on a SINUMERIK", name), "write it by hand");
 }

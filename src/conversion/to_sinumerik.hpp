@@ -81,6 +81,7 @@ private:
     std::optional<Spindle> spindle;
     std::optional<std::array<double, 3>> shift = std::array<double, 3>{};  ///< X, Y, Z
     std::optional<double> rotation = 0;
+    std::optional<language::RadiusCompensation> compensation = language::RadiusCompensation::Off;
     std::optional<int> row;
     std::set<int> selected;  ///< rows that cycle 247 has selected: the preset table has them
     bool operator==(const Modes&) const = default;
@@ -137,7 +138,22 @@ private:
     return asFeed(quantity(block, operand));
   }
   std::string feedWord(const language::Block& block, const language::Move& move);
+
+  // to_sinumerik_contour.cpp: radius compensation, roundings and chamfers
+  static void followCompensation(const language::Instruction& instruction,
+                                 std::optional<language::RadiusCompensation>& compensation);
+  /// Lists where radius compensation begins or ends in another way than on a SINUMERIK.
+  void listCompensation(const language::Block& block, const language::Instruction& instruction);
+  /// Adds RND= or CHR= to the path block that the corner belongs to.
+  void corner(const language::Block& block, const language::Move& move);
   std::string cornerWord(const language::Block& block, const language::Move& move);
+  /// The path block that comes next, if only a comment lies between; else nothing.
+  struct NextPath {
+    bool rapid = false, hasFeed = false;
+  };
+  std::optional<NextPath> nextPath(const language::Block& block);
+  /// Lists, after M136 and M137, a path whose feed was programmed before them.
+  void listFeedOfOtherKind(const language::Block& block, const language::Move& move);
   void wherePolar(const language::Block& block, const language::Move& move, Place& target);
 
   // to_sinumerik_cycles.cpp
@@ -262,6 +278,13 @@ private:
   std::vector<std::string> blank_;  ///< X, Y, Z of BLK FORM 0.1
   std::string orientation_;         ///< of the spindle by M19 and M20: what cycle 13 has said last
   std::size_t lastMove_ = 0;        ///< line of the last motion, plus 1
+  struct LastPath {
+    language::BlockPosition next{};
+    bool rapid = false, skippable = false;
+  };
+  LastPath lastPath_;  ///< of the block that `lastMove_` comes of
+  std::optional<language::RadiusCompensation> compensation_ = language::RadiusCompensation::Off;
+  bool feedOfOtherKind_ = false;  ///< M136 or M137 came after the last F
 };
 
 }  // namespace probewright::conversion

@@ -147,6 +147,7 @@ std::optional<ToSinumerik::Spindle> ToSinumerik::calledBy(const Block& block, co
 
 void ToSinumerik::follow(const Block& block, Modes& modes) {
   for (const Instruction& instruction : block.instructions) {
+    followCompensation(instruction, modes.compensation);
     if (const auto* tool = std::get_if<ToolCall>(&instruction)) {
       if (tool->axis != 0) modes.toolAxis = tool->axis;
       if (tool->name.present() || tool->number.present()) modes.spindle = calledBy(block, *tool);
@@ -211,6 +212,7 @@ bool ToSinumerik::agree(Modes& with, const Modes& other) {
   meet(with.spindle, other.spindle);
   meet(with.shift, other.shift);
   meet(with.rotation, other.rotation);
+  meet(with.compensation, other.compensation);
   meet(with.row, other.row);
   std::erase_if(with.selected, [&](int row) { return !other.selected.contains(row); });
   return !(with == before);
@@ -268,6 +270,7 @@ void ToSinumerik::surveyModes() {
     modes.spindle = Spindle::Unset;
     modes.shift = std::array<double, 3>{0.0123456789, 0.0123456789, 0.0123456789};
     modes.rotation = 0.0123456789;
+    modes.compensation = RadiusCompensation::Unchanged;
     modes.row = -1;
     const Modes before = modes;
     follow(block, modes);
@@ -297,6 +300,7 @@ void ToSinumerik::adopt(const Block& block) {
   const Modes& modes = found->second;
   axisDoubtful_ = !modes.toolAxis;
   spindle_ = modes.spindle;
+  compensation_ = modes.compensation;
   if (modes.toolAxis && (*modes.toolAxis == 'X' || *modes.toolAxis == 'Y' || *modes.toolAxis == 'Z')) {
     toolAxis_ = *modes.toolAxis;
   }

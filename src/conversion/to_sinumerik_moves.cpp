@@ -64,8 +64,7 @@ std::string ToSinumerik::axisWords(const Block& block, const Move& move) {
     const std::string name = addressName(word.address);
     const auto index = planeIndex(word.address);
     const bool incremental = word.mode == WordMode::Incremental;
-    if (!incremental && word.address >= 'A' && word.address <= 'C' && isBeyondATurn(value))
-      out_.list(block, beyondATurn, withinATurn);
+    if (word.address >= 'A' && word.address <= 'C' && isBeyondATurn(value)) out_.list(block, beyondATurn, withinATurn);
     if (incremental && index && !position_[*index] && besidePath_ && *index < 2) {
       out_.list(block, fmt::format("I{} counts from where the measuring cycle has left the probe", name),
                 "give the coordinate as an absolute one");
@@ -127,14 +126,6 @@ std::string ToSinumerik::centreWords() const {
   return text;
 }
 
-std::string ToSinumerik::cornerWord(const Block& block, const Move& move) {
-  const Word* size = find(wordsOf(block, move.words), "R");
-  const Quantity value = size == nullptr ? Quantity() : quantity(block, size->value);
-  const std::string cornerFeed =
-      move.feed.present() ? fmt::format(" FRC={}", sinumerikText(feed(block, move.feed))) : std::string();
-  return fmt::format(" {}={}{}", move.kind == MoveKind::Rounding ? "RND" : "CHR", sinumerikText(value), cornerFeed);
-}
-
 void ToSinumerik::moveOnMachine(const Block& block, const Move& move) {
   if (move.machineReference2) throw NotCarriedOver("M92 counts from a point that only the machine builder knows");
   std::string text;
@@ -160,10 +151,9 @@ void ToSinumerik::move(const Block& block, const Move& move) {
   loseWords(block, move);
   if (move.machineCoordinates || move.machineReference2) return moveOnMachine(block, move);
   if (move.kind == MoveKind::Rounding || move.kind == MoveKind::Chamfer) {
-    if (lastMove_ == 0) throw NotCarriedOver("there is no path before this corner");
-    out_.at(lastMove_ - 1) += cornerWord(block, move);
-    return;
+    return corner(block, move);
   }
+  listFeedOfOtherKind(block, move);
   std::string compensation;
   if (compensates_ && move.compensation == RadiusCompensation::Off) compensation = "G40 ";
   if (move.compensation == RadiusCompensation::Left) compensation = "G41 ";
@@ -189,6 +179,7 @@ void ToSinumerik::move(const Block& block, const Move& move) {
       path = move.rapid ? "G0" : "G1";
       break;
     case MoveKind::ArcTangential:
+      if (move.rapid) out_.lose(block, "FMAX: a SINUMERIK travels arcs at a feed");
       path = "CT";
       break;
     case MoveKind::ArcClockwise:
@@ -196,6 +187,7 @@ void ToSinumerik::move(const Block& block, const Move& move) {
     case MoveKind::Modal: {
       if (move.kind == MoveKind::ArcClockwise) arcDirection_ = -1;
       if (move.kind == MoveKind::ArcCounterclockwise) arcDirection_ = 1;
+      if (move.rapid) out_.lose(block, "FMAX: a SINUMERIK travels arcs at a feed");
       if (arcDirection_ == 0) throw NotCarriedOver("the direction of this arc is not known", "program DR+ or DR-");
       path = arcDirection_ < 0 ? "G2" : "G3";
       const Word* radius = find(given, "R");
@@ -222,6 +214,7 @@ void ToSinumerik::move(const Block& block, const Move& move) {
   }
   out_.line(compensation + path + words + ending);
   lastMove_ = out_.size();
+  lastPath_ = {.next = block.next, .rapid = move.rapid, .skippable = block.skippable};
 }
 
 }  // namespace probewright::conversion

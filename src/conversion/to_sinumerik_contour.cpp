@@ -1,0 +1,108 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "conversion/to_sinumerik.hpp"
+
+/// Radius compensation, roundings and chamfers of HEIDENHAIN programs in the language of a SINUMERIK.
+namespace probewright::conversion {
+
+using namespace language;
+
+namespace {
+
+bool isCorner(const Move& move) { return move.kind == MoveKind::Rounding || move.kind == MoveKind::Chamfer; }
+
+bool isArc(const Move& move) {
+  return move.kind == MoveKind::ArcClockwise || move.kind == MoveKind::ArcCounterclockwise ||
+         move.kind == MoveKind::ArcTangential || move.kind == MoveKind::Modal;
+}
+
+bool isOn(const std::optional<RadiusCompensation>& compensation) { return compensation != RadiusCompensation::Off; }
+
+}  // namespace
+
+void ToSinumerik::followCompensation(const Instruction& instruction, std::optional<RadiusCompensation>& compensation) {
+  const auto* move = std::get_if<Move>(&instruction);
+  const bool ends = std::holds_alternative<ToolCall>(instruction) || std::holds_alternative<Transform>(instruction) ||
+                    std::holds_alternative<CycleCall>(instruction) ||
+                    (move != nullptr && (move->machineCoordinates || move->machineReference2));
+  if (ends) compensation = RadiusCompensation::Off;
+  if (move != nullptr && move->compensation != RadiusCompensation::Unchanged) compensation = move->compensation;
+}
+
+void ToSinumerik::listCompensation(const Block& block, const Instruction& instruction) {
+  if (!compensates_) return;
+  const std::optional<RadiusCompensation> before = compensation_;
+  followCompensation(instruction, compensation_);
+  const auto* move = std::get_if<Move>(&instruction);
+  const bool onPath = move != nullptr && !move->machineCoordinates && !move->machineReference2 && !isCorner(*move) &&
+                      move->kind != MoveKind::SetCentre;
+  const bool elsewhere = std::holds_alternative<ToolCall>(instruction) ||
+                         std::holds_alternative<Transform>(instruction) ||
+                         std::holds_alternative<CycleCall>(instruction) ||
+                         (move != nullptr && (move->machineCoordinates || move->machineReference2));
+  if (elsewhere && isOn(before)) {
+    out_.list(block, "radius compensation is in effect before this block, which ends it on a HEIDENHAIN control only",
+              "end it with R0 in a straight line before this block");
+  } else if (onPath && isOn(compensation_) && !isOn(before) && isArc(*move)) {
+    out_.list(block, "radius compensation begins with an arc, which a SINUMERIK refuses",
+              "begin it in a straight line before the arc");
+  } else if (onPath && move->words.count == 0 && (isOn(before) || isOn(compensation_))) {
+    out_.list(block,
+              "a block without coordinates moves the tool of a HEIDENHAIN control where radius compensation begins, "
+              "ends or goes on; a SINUMERIK waits for the next path",
+              "write coordinates in this block");
+  }
+}
+
+std::string ToSinumerik::cornerWord(const Block& block, const Move& move) {
+  const auto words = std::span<const Word>(block.words).subspan(move.words.first, move.words.count);
+  const auto size = std::ranges::find(words, addressOf("R"), &Word::address);
+  const Quantity value = size == words.end() ? Quantity() : quantity(block, size->value);
+  const std::string cornerFeed =
+      move.feed.present() ? fmt::format(" FRC={}", sinumerikText(feed(block, move.feed))) : std::string();
+  return fmt::format(" {}={}{}", move.kind == MoveKind::Rounding ? "RND" : "CHR", sinumerikText(value), cornerFeed);
+}
+
+std::optional<ToSinumerik::NextPath> ToSinumerik::nextPath(const Block& block) {
+  Block next;
+  Diagnostics ignored;
+  for (BlockPosition at = block.next; program_.parse(at, next, ignored); at = next.next) {
+    if (next.instructions.empty()) continue;
+    const auto* move = std::get_if<Move>(&next.instructions.front());
+    if (move == nullptr || isCorner(*move)) return std::nullopt;
+    if (move->kind != MoveKind::SetCentre) return NextPath{.rapid = move->rapid, .hasFeed = move->feed.present()};
+  }
+  return std::nullopt;
+}
+
+void ToSinumerik::corner(const Block& block, const Move& move) {
+  // A HEIDENHAIN control rounds and chamfers only where the corner comes directly after its path.
+  const bool follows = lastMove_ != 0 && program_.cornerFollows(lastPath_.next);
+  if (!follows || block.skippable != lastPath_.skippable) {
+    throw NotCarriedOver("there is no path directly before this corner",
+                         "write it in the block after the path that it ends");
+  }
+  const std::optional<NextPath> next = nextPath(block);
+  if (lastPath_.rapid || (next && next->rapid)) {
+    out_.list(block, "a corner between paths at rapid traverse is travelled at another speed on a SINUMERIK",
+              "give the paths before and after the corner a feed");
+  } else if (!move.feed.present() && next && next->hasFeed) {
+    out_.list(block,
+              "this corner is travelled at the feed of the path before it, on a SINUMERIK at that of the path after it",
+              "write the feed in the block of the corner");
+  }
+  std::string& path = out_.at(lastMove_ - 1);
+  path.insert(std::min(path.find(" ;"), path.size()), cornerWord(block, move));
+  lastMove_ = 0;  // it has its corner
+}
+
+void ToSinumerik::listFeedOfOtherKind(const Block& block, const Move& move) {
+  if (move.feed.present()) feedOfOtherKind_ = false;
+  if (!feedOfOtherKind_ || move.rapid || move.words.count == 0) return;
+  feedOfOtherKind_ = false;
+  out_.list(block, "after M136 and M137 a SINUMERIK needs a new feed (F)", "program F in this block");
+}
+
+}  // namespace probewright::conversion
