@@ -109,7 +109,7 @@ EdgeDistance nearestOfTurned(const EdgePiece& piece, const Pose& pose, const Dis
   return {at.near.distance, pose * onPiece(piece, share, at.about).place, at.near.normal};
 }
 
-EdgeDistance nearestOf(const EdgePiece& piece, const Pose& pose, const DistanceSolid& solid) {
+EdgeDistance nearestOfOne(const EdgePiece& piece, const Pose& pose, const DistanceSolid& solid) {
   if (piece.turned) return nearestOfTurned(piece, pose, solid);
   const auto along = [&](double share) {
     const OnPiece at = onPiece(piece, share);
@@ -129,7 +129,7 @@ EdgeDistance nearestOf(const EdgePiece& piece, const Pose& pose, const DistanceS
 EdgeDistance nearestOf(const std::vector<EdgePiece>& pieces, const Pose& pose, const DistanceSolid& solid) {
   EdgeDistance nearest;
   for (const EdgePiece& piece : pieces) {
-    const EdgeDistance here = nearestOf(piece, pose, solid);
+    const EdgeDistance here = nearestOfOne(piece, pose, solid);
     if (here.gap < nearest.gap) nearest = here;
   }
   return nearest;
