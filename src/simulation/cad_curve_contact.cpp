@@ -1,8 +1,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <gp_Pnt.hxx>
-#include <gp_Vec.hxx>
 
 #include "simulation/cad_contact.hpp"
 #include "simulation/cad_vectors.hpp"
@@ -15,43 +13,54 @@ namespace {
 class EdgeSearch {
 public:
   EdgeSearch(const CadEdge& edge, const TrimmedDomain* within, const Way& way, double radius, Meeting& best)
-      : edge_(edge), within_(within), way_(way), radius_(radius), best_(best) {}
+      : edge_(edge), curve_(**edge.bounded), within_(within), way_(way), radius_(radius), best_(best) {}
 
-  /// Looks near the chord between two parameters; `coarse` is the meeting with the grown chord.
-  void near(double low, double high, const Meeting& coarse, int depth = 0) {
-    if (depth == 0) {
-      for (const double t : {low, high}) {
-        if (counts(t)) sweepPoint(way_, radius_, pointAt(t), best_);
-      }
-    }
-    if (settles(low, high, coarse)) return;
-    constexpr int kDeepest = 14;
-    const double middle = (low + high) / 2;
-    const std::array<double, 3> ends{low, middle, high};
-    for (std::size_t k = 0; k < 2; ++k) {
-      const Vector3 a = pointAt(ends[k]);
-      const Vector3 b = pointAt(ends[k + 1]);
-      const double deviation = (pointAt((ends[k] + ends[k + 1]) / 2) - (a + b) / 2).norm();
-      Meeting finer;
-      finer.when = best_.when;
-      if (!sweepSegment(way_, radius_ + 1e-9 + 2 * deviation, a, b, finer)) continue;
-      if (finer.when > best_.when - 1e-7) continue;
-      if (depth < kDeepest && deviation > 1e-8) {
-        near(ends[k], ends[k + 1], finer, depth + 1);
-      } else if (deviation < 1e-6) {
-        meetStraight(ends[k], ends[k + 1], a, b);
-      }
-    }
+  /// Looks near the chord between two parameters.
+  void near(double low, double high) {
+    meetPoint(low);
+    meetPoint(high);
+    if (best_.when >= 0) look(low, high, pointAt(low), pointAt(high), 0);
   }
 
 private:
-  std::array<Vector3, 3> evaluateCurve(double t) const {
-    gp_Pnt p;
-    gp_Vec d1, d2;
-    edge_.curve->D2(t, p, d1, d2);
-    return {vector(p), vector(d1), vector(d2)};
+  static constexpr double kSame = 1e-7;      ///< mm: contacts nearer to each other are the same
+  static constexpr double kStraight = 1e-8;  ///< mm: a piece that leaves its chord by less is as good as straight
+  static constexpr double kRounding = 1e-9;  ///< mm
+
+  Vector3 pointAt(double t) const { return curve_.at(t).point; }
+
+  void meetPoint(double t) {
+    if (counts(t)) sweepPoint(way_, radius_, pointAt(t), best_);
   }
-  Vector3 pointAt(double t) const { return vector(edge_.curve->Value(t)); }
+
+  /// Looks at a piece between two points; in halves, until it is known where it is met before the best meeting.
+  void look(double low, double high, const Vector3& from, const Vector3& to, int halvings) {
+    if (const auto kink = curve_.kink(low, high)) {
+      meetPoint(*kink);
+      return lookAtBoth(low, *kink, high, from, to, halvings);
+    }
+    CurveBends bends = curve_.bends(low, high);
+    const double deviation = bends.fromChord(high - low);
+    Meeting coarse;
+    coarse.when = best_.when;
+    if (!sweepSegment(way_, radius_ + kRounding + deviation, from, to, coarse)) return;
+    if (coarse.when > best_.when - kSame) return;
+    constexpr int kMost = 40;
+    if (deviation < kStraight || halvings == kMost) return meetStraight(low, high, from, to);
+    // A touch of one half is seldom that of the other: not each needs a search.
+    constexpr int kOnceIn = 3;
+    if (halvings % kOnceIn == 0 && settles(low, high, coarse)) return;
+    lookAtBoth(low, (low + high) / 2, high, from, to, halvings + 1);
+  }
+
+  void lookAtBoth(double low, double middle, double high, const Vector3& from, const Vector3& to, int halvings) {
+    const Vector3 between = pointAt(middle);
+    const bool forwards = (from - to).dot(way_.direction) <= 0;
+    for (const bool first : {forwards, !forwards}) {
+      if (best_.when < 0) return;
+      first ? look(low, middle, from, between, halvings) : look(middle, high, between, to, halvings);
+    }
+  }
 
   bool counts(double t) const {
     return within_ == nullptr || within_->contains(edge_.acrossU ? Vector2(edge_.kinkAt, t) : Vector2(t, edge_.kinkAt));
@@ -71,7 +80,7 @@ private:
   bool project(const Vector3& p, double extent, double& t) const {
     Settling settling(1e-11);
     for (int i = 0; i < 30; ++i) {
-      const auto [c, d1, d2] = evaluateCurve(t);
+      const auto [c, d1, d2] = curve_.at(t);
       const Vector3 w = p - c;
       double curvature = d1.squaredNorm() - w.dot(d2);
       if (curvature <= 0) curvature = d1.squaredNorm();
@@ -85,7 +94,7 @@ private:
 
   double gapAt(double when, double t) const { return (way_.at(when) - pointAt(t)).norm() - radius_; }
 
-  /// True if what happens near the chord is known: a contact, which goes into the best, or none.
+  /// Looks for a touch of the piece, which goes into the best if it counts. True if there is no earlier one.
   bool settles(double low, double high, const Meeting& coarse) {
     const double extent = high - low;
     const Vector3 from = pointAt(low);
@@ -112,20 +121,37 @@ private:
     if (!onChord(at)) return false;
     const Vector3 touch = pointAt(at);
     if ((way_.at(when) - touch).dot(way_.direction) >= 0) return false;
-    if (!counts(at) || when < -1e-7 || when > way_.length || when >= best_.when) return true;
-    if (std::abs(gapAt(when, at)) > 1e-7) return false;
-    const double end = std::min(way_.length, std::max(when, 0.0) + 1e-3 * radius_);
-    double later = at;
-    if (project(way_.at(end), extent, later) && gapAt(end, later) >= -kTouchTolerance) return true;
-    keep(best_, std::max(0.0, when), touch, Vector3::Zero());
-    return true;
+    if (counts(at) && when > -kSame && when <= way_.length && when < best_.when && std::abs(gapAt(when, at)) < 1e-7) {
+      const double end = std::min(way_.length, std::max(when, 0.0) + 1e-3 * radius_);
+      double later = at;
+      if (!project(way_.at(end), extent, later) || gapAt(end, later) < -kTouchTolerance)
+        keep(best_, std::max(0.0, when), touch, Vector3::Zero());
+    }
+    return when > best_.when - kSame && isClearBefore(low, high, at, when, coarse.when);
+  }
+
+  /// True if the ball touches nothing of the piece before a touch; it does not before `soonest`. With q from the touch
+  /// to a place of the curve and h its height along the way to the centre there, the ball is its radius R away from the
+  /// place until the touch if q * q - 2 R h >= m q * q, where 2 m R is the ball's speed towards the touch times how
+  /// long the ball is near.
+  bool isClearBefore(double low, double high, double at, double when, double soonest) const {
+    const double half = std::max(high - at, at - low);
+    const CurveBends bends = curve_.bends(std::min(low, at), std::max(high, at));
+    const CurvePoint p = curve_.at(at);
+    const Vector3 normal = (way_.at(when) - p.point) / radius_;
+    const double towards = -normal.dot(way_.direction), speed = p.d1.norm();
+    const double share = std::max(0.0, when - soonest) / (2 * radius_ * towards);
+    if (!(towards > 0) || !(share < 1) || !(speed > 0)) return false;
+    const double rise = std::min(bends.d2, normal.dot(p.d2) + bends.d3 * half);
+    const double straight = 1 - std::min(bends.d2, p.d2.norm() + bends.d3 * half) * half / (2 * speed);
+    return rise <= 0 || (straight > 0 && radius_ * rise < (1 - share) * speed * speed * straight * straight);
   }
 
   /// Newton's method for the place where the ball touches the curve.
   bool solve(double extent, double& at, double& when) const {
     Settling settling(1e-12);
     for (int i = 0; i < 25; ++i) {
-      const auto [c, d1, d2] = evaluateCurve(at);
+      const auto [c, d1, d2] = curve_.at(at);
       const Vector3 w = way_.at(when) - c;
       const Vector2 f(w.dot(d1), (w.squaredNorm() - radius_ * radius_) / (2 * radius_));
       Eigen::Matrix2d jacobian;
@@ -144,6 +170,7 @@ private:
   }
 
   const CadEdge& edge_;
+  const FreeformCurve& curve_;
   const TrimmedDomain* within_;
   const Way& way_;
   double radius_;
@@ -152,9 +179,9 @@ private:
 
 }  // namespace
 
-void meetEdgeNear(const CadEdge& edge, const TrimmedDomain* within, const CadElement& chord, const Meeting& coarse,
-                  const Way& way, double radius, Meeting& best) {
-  EdgeSearch(edge, within, way, radius, best).near(chord.parameters[0].x(), chord.parameters[1].x(), coarse);
+void meetEdgeNear(const CadEdge& edge, const TrimmedDomain* within, const CadElement& chord, const Way& way,
+                  double radius, Meeting& best) {
+  EdgeSearch(edge, within, way, radius, best).near(chord.parameters[0].x(), chord.parameters[1].x());
 }
 
 }  // namespace probewright::simulation

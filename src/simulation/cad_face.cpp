@@ -248,6 +248,24 @@ TrimmedDomain trimmedDomain(const TopoDS_Face& oriented, const Handle(Geom_Surfa
 
 }  // namespace
 
+LazyFreeformSurface::LazyFreeformSurface(Handle(Geom_Surface) surface, const TrimmedDomain& domain)
+    : surface_(std::move(surface)), low_(domain.low()), high_(domain.high()) {
+  if (!domain.isEverywhere()) return;
+  constexpr double kMost = 1e6;
+  surface_->Bounds(low_.x(), high_.x(), low_.y(), high_.y());
+  low_ = low_.cwiseMax(-kMost);
+  high_ = high_.cwiseMin(kMost);
+}
+
+const FreeformSurface& LazyFreeformSurface::operator*() const {
+  std::call_once(once_, [&] { made_ = freeformSurface(surface_, low_, high_); });
+  return *made_;
+}
+
+Vector3 CadFace::pointAt(const Vector2& parameters) const {
+  return freeform ? (**freeform).pointAt(parameters) : vector(surface->Value(parameters.x(), parameters.y()));
+}
+
 Handle(Geom_Surface) surfaceWithoutLimits(const Handle(Geom_Surface) & surface) {
   if (const auto trimmed = Handle(Geom_RectangularTrimmedSurface)::DownCast(surface)) {
     return surfaceWithoutLimits(trimmed->BasisSurface());
@@ -288,6 +306,7 @@ CadFace cadFace(const TopoDS_Face& face, std::optional<TrimmedDomain> domain) {
   exact.reversed = face.Orientation() == TopAbs_REVERSED;
   exact.domain = domain ? std::move(*domain) : trimmedDomain(face, exact.surface);
   exact.forms = closedForms(BRepAdaptor_Surface(face, Standard_False), exact.domain);
+  if (exact.forms.count == 0) exact.freeform = std::make_shared<LazyFreeformSurface>(exact.surface, exact.domain);
   return exact;
 }
 

@@ -3,9 +3,12 @@
 #include <Geom_Surface.hxx>
 #include <TopoDS_Face.hxx>
 #include <array>
+#include <memory>
+#include <mutex>
 #include <optional>
 
 #include "simulation/analytic_surface.hpp"
+#include "simulation/freeform_surface.hpp"
 #include "simulation/trimmed_domain.hpp"
 
 /// A face of a boundary representation, as contact queries need it.
@@ -22,12 +25,29 @@ struct ClosedForms {
   bool isPlane() const { return count == 1 && sheets[0].kind == AnalyticSurface::Kind::Plane; }
 };
 
+/// The surface of a free-form face, made ready when somebody first asks for it, by any thread.
+class LazyFreeformSurface {
+public:
+  LazyFreeformSurface(Handle(Geom_Surface) surface, const TrimmedDomain& domain);
+  const FreeformSurface& operator*() const;
+
+private:
+  Handle(Geom_Surface) surface_;
+  Vector2 low_, high_;
+  mutable std::once_flag once_;
+  mutable std::unique_ptr<const FreeformSurface> made_;
+};
+
 struct CadFace {
-  ClosedForms forms;             ///< the exact surface where it has closed forms
-  Handle(Geom_Surface) surface;  ///< the exact surface in every case, without limits of its own
+  ClosedForms forms;                                    ///< the exact surface where it has closed forms
+  Handle(Geom_Surface) surface;                         ///< the exact surface in every case, without limits of its own
+  std::shared_ptr<const LazyFreeformSurface> freeform;  ///< the same with bounds, where it has no closed forms
   TrimmedDomain domain;
   bool reversed = false;     ///< the material lies on the side the surface's own normal points to
   bool boundsSolid = false;  ///< belongs to a closed solid, so that a point is before or behind it
+
+  /// The point of the surface.
+  Vector3 pointAt(const Vector2& parameters) const;
 };
 
 /// Reads a face. Throws Standard_Failure or std::runtime_error where it has no surface. Its domain takes long to find,

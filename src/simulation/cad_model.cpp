@@ -144,6 +144,8 @@ CadModel modelOf(const TopoDS_Shape& shape, double deflection, std::vector<Trimm
     CadEdge exact = cadEdge(edge);
     if (!exact.curve.IsNull()) model.edges.push_back(std::move(exact));
   }
+  for (CadEdge& edge : model.edges)
+    edge.bounded = std::make_shared<LazyFreeformCurve>(edge.curve, edge.first, edge.last);
   if (model.faces.empty()) throw std::runtime_error("the shape has no face that can be touched");
   return model;
 }
@@ -261,6 +263,7 @@ void appendElements(std::string& bytes, const CadModel& model) {
     append(bytes, element.owner);
     append(bytes, element.kind);
     append(bytes, element.onFace);
+    append(bytes, element.borders);
   }
   model.tree.appendTo(bytes);
 }
@@ -276,6 +279,7 @@ void takeElements(CadModel& model, std::string_view bytes) {
   for (CadElement& element : model.elements) {
     if (!take(bytes, element.corners) || !take(bytes, element.parameters) || !take(bytes, element.growth) ||
         !take(bytes, element.owner) || !take(bytes, element.kind) || !take(bytes, element.onFace) ||
+        !take(bytes, element.borders) ||
         element.owner >= (element.kind == CadElement::Kind::Face ? model.faces.size() : model.edges.size()))
       throw refuse();
   }

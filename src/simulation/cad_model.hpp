@@ -3,6 +3,7 @@
 #include <Adaptor3d_Surface.hxx>
 #include <Geom_Curve.hxx>
 #include <TopoDS_Shape.hxx>
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "simulation/cad_face.hpp"
+#include "simulation/freeform_curve.hpp"
 #include "simulation/search_tree.hpp"
 
 /// A boundary representation prepared for contact queries: exact faces and edges, and a tessellation to find them by.
@@ -19,7 +21,8 @@ struct CadEdge {
   enum class Kind { Line, Circle, Curve };
   Kind kind = Kind::Curve;
   Handle(Geom_Curve) curve;
-  double first = 0;  ///< parameters of the ends
+  std::shared_ptr<const LazyFreeformCurve> bounded;  ///< the same with bounds
+  double first = 0;                                  ///< parameters of the ends
   double last = 0;
   Vector3 start = Vector3::Zero();
   Vector3 end = Vector3::Zero();
@@ -41,8 +44,14 @@ struct CadElement {
   double growth = 0;                  ///< the exact shape lies within this distance
   std::uint32_t owner = 0;            ///< index of the face or edge
   Kind kind = Kind::Face;
-  bool onFace = true;                  ///< stands for a part of the face; else it only helps to find the face
-  std::array<std::uint8_t, 2> rest{};  ///< so that no byte of an element is without a value
+  bool onFace = true;        ///< stands for a part of the face; else it only helps to find the face
+  std::uint8_t borders = 0;  ///< a bit for each side, from corner k to the next: beyond it no triangle follows
+  std::uint8_t rest = 0;     ///< so that no byte of an element is without a value
+
+  bool isBorder(std::size_t side) const { return (borders >> side & 1U) != 0; }
+  void setBorder(std::size_t side, bool is) {
+    borders = static_cast<std::uint8_t>((borders & ~(1U << side)) | (is ? 1U << side : 0U));
+  }
 
   bool isTriangle() const { return kind == Kind::Face && onFace; }
 };
@@ -61,13 +70,11 @@ struct CadModel {
 };
 
 /// The samples of deviationOf may miss the place where the surface leaves the triangle most: it is counted so many
-/// times.
+/// times. What that cannot be relied on for is in cad_deviation.hpp.
 inline constexpr double kDeviationSafety = 1.5;
 
 /// How far the surface leaves the triangle of an element, sampled.
-double deviationOf(const CadElement& element, const Geom_Surface& surface);
-/// The same of a face's own adaptor, which is quicker for places near each other.
-double deviationOf(const CadElement& element, const Adaptor3d_Surface& surface);
+double deviationOf(const CadElement& element, const CadFace& face);
 
 /// mm: how near to its triangles a face with bent edges lies between an edge and its chords, where no triangle is.
 double growthBesideBorders(double deflection);

@@ -14,6 +14,8 @@
 namespace probewright::simulation {
 namespace {
 
+constexpr double kSameContact = 1e-7;  ///< mm along the way
+
 /// The faces and edges a query has dealt with. One that falls out of the memory is dealt with again, to no harm.
 class Memory {
 public:
@@ -34,14 +36,14 @@ private:
   std::size_t count_ = 0;
 };
 
-/// A triangle near which it is not clear where a free-form face is met.
-struct OpenQuestion {
-  CadElement triangle;
-  double soonest;  ///< no meeting there is earlier
+/// Those of a query.
+struct Questions {
+  std::vector<FaceQuestion> answered;  ///< by a touch, or by none: there may be earlier ones
+  std::vector<FaceQuestion> open;
 };
 
 void meet(const CadModel& model, const CadElement& element, const Way& way, double radius, Memory& memory,
-          QuickSurfaces& surfaces, std::vector<OpenQuestion>& open, Meeting& best) {
+          Questions& questions, Meeting& best) {
   Meeting coarse;
   coarse.when = best.when;
   const bool isFace = element.kind == CadElement::Kind::Face;
@@ -54,22 +56,32 @@ void meet(const CadModel& model, const CadElement& element, const Way& way, doub
     if (face.forms.count > 0) {
       if (!memory.knows(element)) meetAnalyticFace(face, way, radius, best);
     } else {
+      const double soonest = coarse.when;
       visitForBall(
-          model, element, surfaces, radius,
+          model, element, radius,
           [&](const CadElement& part) {
             coarse = {};
             coarse.when = best.when;
             return sweepTriangle(way, radius + part.growth, part.corners, coarse);
           },
+          [&](const CadElement& part, bool isCovered) {
+            FaceQuestion question;
+            question.triangle = part;
+            question.soonest = coarse.when;
+            const bool isAnswered = meetFaceNear(face, question, coarse, way, radius, best);
+            if (!isCovered) (isAnswered ? questions.answered : questions.open).push_back(question);
+          },
           [&](const CadElement& part) {
-            if (!meetFaceNear(face, surfaces.of(part.owner), part, coarse, way, radius, best))
-              open.push_back({part, coarse.when});
+            FaceQuestion question;
+            question.triangle = part;
+            question.soonest = soonest;
+            questions.open.push_back(question);
           });
     }
   } else {
     const CadEdge& edge = model.edges[element.owner];
     const TrimmedDomain* within = edge.within ? &model.faces[*edge.within].domain : nullptr;
-    if (edge.kind == CadEdge::Kind::Curve) return meetEdgeNear(edge, within, element, coarse, way, radius, best);
+    if (edge.kind == CadEdge::Kind::Curve) return meetEdgeNear(edge, within, element, way, radius, best);
     if (!memory.knows(element)) meetSimpleEdge(edge, way, radius, best);
   }
 }
@@ -119,7 +131,6 @@ std::size_t CadSolid::triangleCount() const {
 }
 
 bool CadSolid::isInside(const Vector3& point) const {
-  QuickSurfaces surfaces(*model_);
   return model_->closedBodies > 0 &&
          isWithin(model_->tree, point, Rays::Majority, [&](std::uint32_t place, const Triangle&, const auto& cross) {
            const CadElement& element = model_->elements[place];
@@ -130,7 +141,7 @@ bool CadSolid::isInside(const Vector3& point) const {
              if (!near) cross(t);
              return near;
            };
-           visitFinely(*model_, element, surfaces, isNear, cross);
+           visitFinely(*model_, element, isNear, cross);
          });
 }
 
@@ -138,17 +149,20 @@ std::optional<BallContact> CadSolid::firstContact(const Vector3& from, const Vec
   const Mover mover{wayBetween(from, to), radius};
   Meeting best;
   Memory memory;
-  QuickSurfaces surfaces(*model_);
-  std::vector<OpenQuestion> open;
+  Questions questions;
   model_->tree.search(mover, best, [&](std::uint32_t place, const Triangle&) {
-    meet(*model_, model_->elements[place], mover.way, radius, memory, surfaces, open, best);
+    meet(*model_, model_->elements[place], mover.way, radius, memory, questions, best);
   });
   // Only now, because borders and neighbours answer most of them.
-  std::sort(open.begin(), open.end(), [](const auto& a, const auto& b) { return a.soonest < b.soonest; });
-  for (const OpenQuestion& question : open) {
-    const std::uint32_t face = question.triangle.owner;
-    if (question.soonest < best.when)
-      meetFaceClosely(model_->faces[face], surfaces.of(face), question.triangle, mover.way, radius, best);
+  for (std::vector<FaceQuestion>* const some : {&questions.open, &questions.answered}) {
+    std::sort(some->begin(), some->end(), [](const auto& a, const auto& b) { return a.soonest < b.soonest; });
+    for (const FaceQuestion& question : *some) {
+      if (question.soonest > best.when - kSameContact) break;
+      const CadFace& face = model_->faces[question.triangle.owner];
+      const bool isClear = question.isSolved && question.when > best.when - kSameContact &&
+                           isClearBefore(face, question, mover.way, radius);
+      if (!isClear) meetFaceClosely(face, question, mover.way, radius, best);
+    }
   }
   // From within one body the ball may meet another body's front: where both touch, or where they overlap.
   const bool startsOutside = model_->closedBodies == 1 && meetsFront(mover.way, best);
@@ -160,7 +174,6 @@ std::optional<BallContact> CadSolid::firstCapsuleContact(const Vector3& from, co
                                                          double radius) const {
   const Way way = wayBetween(from, to);
   Meeting best;
-  QuickSurfaces surfaces(*model_);
   const std::size_t parts = capsuleParts(axis, radius);
   const Vector3 part = axis / static_cast<double>(parts);
   for (std::size_t i = 0; i < parts; ++i) {
@@ -169,7 +182,7 @@ std::optional<BallContact> CadSolid::firstCapsuleContact(const Vector3& from, co
       const CadElement& element = model_->elements[place];
       if (!element.isTriangle() || passes(model_->faces[element.owner], mover, radius)) return;
       visitFinely(
-          *model_, element, surfaces,
+          *model_, element,
           [&](const Triangle& t, double growth) {
             Meeting coarse;
             coarse.when = best.when;
@@ -187,12 +200,11 @@ std::optional<BallContact> CadSolid::firstCylinderContact(const Vector3& from, c
   const Mover mover{wayBetween(from, to), 0, axis, radius};
   const double height = axis.norm();
   Meeting best;
-  QuickSurfaces surfaces(*model_);
   model_->tree.search(mover, best, [&](std::uint32_t place, const Triangle&) {
     const CadElement& element = model_->elements[place];
     if (!element.isTriangle() || passes(model_->faces[element.owner], mover, radius)) return;
     visitFinely(
-        *model_, element, surfaces,
+        *model_, element,
         [&](const Triangle& t, double growth) {
           const Vector3 more = axis * (growth / height);
           const Way way{mover.way.start - more, mover.way.direction, mover.way.length};

@@ -10,7 +10,4 @@ inline constexpr int kMostMeshPoints = 50'000;
 /// they may leave it there. Where a contact needs it they are halved.
 inline constexpr double kInteriorDeflections = 60;
 
-/// Surfaces with at most so many stretches between knots, along u and along v, are sampled between them.
-inline constexpr int kMostStretches = 12;
-
 }  // namespace probewright::simulation
