@@ -215,8 +215,10 @@ std::optional<SplineNet> SplineNet::of(const Handle(Geom_BSplineSurface) & surfa
   net.columns_ = open->NbVPoles();
   for (int i = 1; i <= open->NbUPoles(); ++i) {
     for (int j = 1; j <= open->NbVPoles(); ++j) {
-      if (!(open->Weight(i, j) > 0)) return std::nullopt;
-      net.add(vector(open->Pole(i, j)), open->Weight(i, j));
+      // OpenCASCADE has weights of 0 for splines without weights that it has opened.
+      const double weight = net.rational_ ? open->Weight(i, j) : 1;
+      if (!(weight > 0)) return std::nullopt;
+      net.add(vector(open->Pole(i, j)), weight);
     }
   }
   net.findBends();
@@ -235,8 +237,9 @@ std::optional<SplineNet> SplineNet::of(const Handle(Geom_BSplineCurve) & curve) 
   net.v_ = {0, {0, 1}, {0}, {-1e100, 1e100}, {0}, {}, 0};
   net.rational_ = open->IsRational();
   for (int i = 1; i <= open->NbPoles(); ++i) {
-    if (!(open->Weight(i) > 0)) return std::nullopt;
-    net.add(vector(open->Pole(i)), open->Weight(i));
+    const double weight = net.rational_ ? open->Weight(i) : 1;
+    if (!(weight > 0)) return std::nullopt;
+    net.add(vector(open->Pole(i)), weight);
   }
   net.findBends();
   return net;

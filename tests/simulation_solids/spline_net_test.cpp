@@ -39,6 +39,7 @@ Handle(Geom_BSplineSurface) randomSpline(std::mt19937_64& random, bool isRationa
   }
   const Handle(Geom_BSplineSurface) surface =
       new Geom_BSplineSurface(poles, weights, knots, knots, multiplicities, multiplicities, degree, degree);
+  if (pieces > 3 && random() % 2 == 0) surface->SetUPeriodic();
   return surface;
 }
 
