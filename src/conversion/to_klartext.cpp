@@ -220,6 +220,7 @@ void ToKlartext::statements(const Block& block) {
     out_.list(block, "this program selects no unit, and others of its job select both: what is written counts in mm",
               "begin the program with G71 or G70");
   }
+  listCompensation(block);
   // A tool change is in one block with its M6; suppression of the tool length belongs to a motion on the machine.
   for (const Instruction& each : block.instructions)
     instruction(block, each);

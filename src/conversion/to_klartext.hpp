@@ -179,10 +179,12 @@ private:
   /// RND and CHR, at the end of the path in this block.
   void corner(const language::Block& block, std::span<const language::Word> words);
   struct NextPath {
-    std::optional<language::MoveKind> kind;  ///< nothing: as the active G function says
-    bool hasFeed = false;
+    std::optional<language::MoveKind> kind;     ///< nothing: as the active G function says
+    bool hasFeed = false, compensates = false;  ///< F, or G40 to G42, stand before it or in its block
   };
-  /// The next path in the text of the program.
+  /// Lists a block that a contour with radius compensation does not go on through as on a HEIDENHAIN control.
+  void listCompensation(const language::Block& block);
+  /// The next path, unless a label, a jump or a call comes before it in the text of the program.
   std::optional<NextPath> nextPath(const language::Block& block);
   /// D1 and the like stand in the block.
   bool callsEdge(const language::Block& block);

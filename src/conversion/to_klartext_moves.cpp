@@ -165,55 +165,6 @@ void ToKlartext::move(const Block& block, const Move& move) {
   if (shortest) line("M127");
 }
 
-void ToKlartext::corner(const Block& block, std::span<const Word> words) {
-  const Word* cornerFeed = find(words, "FRC");
-  const std::string slow = cornerFeed == nullptr ? "" : feedWord(block, cornerFeed->value);
-  const Word* round = find(words, "RND");
-  const Word* chamfer = find(words, "CHR");
-  if (round == nullptr && chamfer == nullptr) {
-    if (cornerFeed != nullptr) out_.lose(block, "FRC without RND or CHR in its block");
-    return;
-  }
-  const std::optional<NextPath> next = nextPath(block);
-  const MoveKind kind = next ? next->kind.value_or(motion_) : motion_;
-  if (motion_ == MoveKind::Rapid || kind == MoveKind::Rapid) {
-    out_.list(block, "a corner between paths at rapid traverse is travelled at another speed on a HEIDENHAIN control",
-              "give the paths before and after the corner a feed");
-  } else if (cornerFeed == nullptr && next && next->hasFeed) {
-    out_.list(block,
-              "this corner is travelled at the feed of the path after it, on a HEIDENHAIN control at that of the path "
-              "before it",
-              "write the feed of the corner (FRC) in this block");
-  }
-  if (round != nullptr) {
-    line(fmt::format("RND R{}{}", formulas_.unsignedValue(quantity(block, round->value)), slow));
-  }
-  if (chamfer != nullptr) {
-    line(fmt::format("CHF {}{}", formulas_.unsignedValue(quantity(block, chamfer->value)), slow));
-  }
-}
-
-std::optional<ToKlartext::NextPath> ToKlartext::nextPath(const Block& block) {
-  Block next;
-  Diagnostics ignored;
-  NextPath path;
-  for (BlockPosition at = block.next; program_.parse(at, next, ignored); at = next.next) {
-    for (const Instruction& instruction : next.instructions) {
-      const auto* modal = std::get_if<Modal>(&instruction);
-      const std::string_view name = modal == nullptr ? std::string_view() : next.at(modal->name);
-      if (name == "F") path.hasFeed = true;
-      if (name == "G0") path.kind = MoveKind::Rapid;
-      if (name == "G1" || name == "G2" || name == "G3") path.kind = MoveKind::Linear;
-      const auto* move = std::get_if<Move>(&instruction);
-      if (move == nullptr) continue;
-      if (move->kind != MoveKind::Modal) path.kind = move->kind;
-      path.hasFeed = path.hasFeed || move->feed.present();
-      return path;
-    }
-  }
-  return std::nullopt;
-}
-
 void ToKlartext::arc(const Block& block, const Move& move, bool clockwise) {
   const auto words = std::span<const Word>(block.words).subspan(move.words.first, move.words.count);
   const std::string direction = clockwise ? " DR-" : " DR+";

@@ -149,7 +149,7 @@ private:
   std::string cornerWord(const language::Block& block, const language::Move& move);
   /// The path block that comes next, if only a comment lies between; else nothing.
   struct NextPath {
-    bool rapid = false, hasFeed = false;
+    bool rapid = false, hasFeed = false, compensates = false;
   };
   std::optional<NextPath> nextPath(const language::Block& block);
   /// Lists, after M136 and M137, a path whose feed was programmed before them.

@@ -53,6 +53,9 @@ void ToSinumerik::listCompensation(const Block& block, const Instruction& instru
               "a block without coordinates moves the tool of a HEIDENHAIN control where radius compensation begins, "
               "ends or goes on; a SINUMERIK waits for the next path",
               "write coordinates in this block");
+  } else if (onPath && isOn(before) && isOn(compensation_) && before != compensation_) {
+    out_.list(block, "the side of radius compensation changes, which the two controls do in another way",
+              "end it with R0 in a straight line before this block");
   }
 }
 
@@ -70,9 +73,16 @@ std::optional<ToSinumerik::NextPath> ToSinumerik::nextPath(const Block& block) {
   Diagnostics ignored;
   for (BlockPosition at = block.next; program_.parse(at, next, ignored); at = next.next) {
     if (next.instructions.empty()) continue;
-    const auto* move = std::get_if<Move>(&next.instructions.front());
-    if (move == nullptr || isCorner(*move)) return std::nullopt;
-    if (move->kind != MoveKind::SetCentre) return NextPath{.rapid = move->rapid, .hasFeed = move->feed.present()};
+    const auto found = std::ranges::find_if(next.instructions,
+                                            [](const Instruction& each) { return std::holds_alternative<Move>(each); });
+    if (found == next.instructions.end()) return std::nullopt;
+    const Move& move = std::get<Move>(*found);
+    if (isCorner(move)) return std::nullopt;
+    if (move.kind == MoveKind::SetCentre) continue;
+    return NextPath{.rapid = move.rapid,
+                    .hasFeed = move.feed.present(),
+                    .compensates = compensates_ && move.compensation != RadiusCompensation::Unchanged &&
+                                   compensation_ != move.compensation};
   }
   return std::nullopt;
 }
@@ -85,10 +95,15 @@ void ToSinumerik::corner(const Block& block, const Move& move) {
                          "write it in the block after the path that it ends");
   }
   const std::optional<NextPath> next = nextPath(block);
-  if (lastPath_.rapid || (next && next->rapid)) {
+  if (!next || next->compensates) {
+    out_.list(block,
+              "this corner is not followed by a path, or by the begin or end of radius compensation: the two controls "
+              "round and chamfer differently there",
+              "let a path follow it directly");
+  } else if (lastPath_.rapid || next->rapid) {
     out_.list(block, "a corner between paths at rapid traverse is travelled at another speed on a SINUMERIK",
               "give the paths before and after the corner a feed");
-  } else if (!move.feed.present() && next && next->hasFeed) {
+  } else if (!move.feed.present() && next->hasFeed) {
     out_.list(block,
               "this corner is travelled at the feed of the path before it, on a SINUMERIK at that of the path after it",
               "write the feed in the block of the corner");

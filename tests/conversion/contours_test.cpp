@@ -93,6 +93,20 @@ TEST(ConvertCompensation, NamesWhereItEndsOnOneControlOnly) {
                      "TOOL CALL S200\n"));
 }
 
+/// On the way back, too; and corners that no path follows directly.
+TEST(ConvertCompensation, NamesWhatInterruptsContours) {
+  for (const char* word : {"TRANS X5", "G55", "T1 M6 D1", "SUPA G0 Z-60 D0", "S300", "F250", "STOPRE", "D1"}) {
+    const std::string blocks = fmt::format("G41 X20\nX50\n{}\nG1 G40 X60 Y20\n", word);
+    EXPECT_TRUE(lists(toKlartext(fromSinumerik(blocks)), "radius compensation is in effect at this block")) << word;
+  }
+  EXPECT_TRUE(goesTheSameWayBack("G41 X20 Y5 D1\nX50\nR1=3\nM8\nY60\nG40 X60 F300\n"));
+  for (const char* blocks : {"G1 X20 RND=2\nGOTOF AHEAD\nX50\nAHEAD: Y20\n", "G1 X20 CHR=2\nG41 Y20\nG40 X0\n"})
+    EXPECT_TRUE(lists(toKlartext(fromSinumerik(blocks)), "the two controls round and chamfer differently")) << blocks;
+  EXPECT_TRUE(lists(toKlartext(fromSinumerik("G1 X20 CHR=2\nG3 X20 Y20 CR=30\n")), "between straight lines only"));
+  EXPECT_TRUE(lists(toSinumerik(fromKlartext("L X+20\nRND R2\nLBL 1\nL Y+20\n")), "is not followed by a path"));
+  EXPECT_TRUE(lists(toSinumerik(fromKlartext("L X+20 RL\nL X+40 RR\nL Y+40 R0\n")), "the side of radius"));
+}
+
 TEST(ConvertFeeds, NamePathsWithoutANewFeedAfterM136) {
   const std::string turns = "TOOL CALL S1000\nM3\n";
   EXPECT_TRUE(goesTheSameWay(turns + "L X+20 F0.5 M136\nL X+40\nL X+0 F500 M137\nL X+10\n"));
