@@ -54,6 +54,18 @@ void ToKlartext::listCompensation(const Block& block) {
     return (modal != nullptr && block.at(modal->name) == "G40") ||
            (move != nullptr && move->compensation == RadiusCompensation::Off);
   };
+  const auto changesSide = [&](const Instruction& each) {
+    const auto* modal = std::get_if<Modal>(&each);
+    const auto* move = std::get_if<Move>(&each);
+    const std::string_view name = modal == nullptr ? std::string_view() : block.at(modal->name);
+    const RadiusCompensation side = move == nullptr ? RadiusCompensation::Unchanged : move->compensation;
+    return (compensation_ == "RL" && (name == "G42" || side == RadiusCompensation::Right)) ||
+           (compensation_ == "RR" && (name == "G41" || side == RadiusCompensation::Left));
+  };
+  if (std::ranges::any_of(block.instructions, changesSide)) {
+    out_.list(block, "the side of radius compensation changes, which the two controls do in another way",
+              "end it with G40 in a path before this block");
+  }
   const auto interrupts = [&](const Instruction& each) { return interruptsContour(block, each); };
   if (std::ranges::any_of(block.instructions, ends) || std::ranges::none_of(block.instructions, interrupts)) return;
   out_.list(

@@ -104,6 +104,7 @@ TEST(ConvertCompensation, NamesWhatInterruptsContours) {
     EXPECT_TRUE(lists(toKlartext(fromSinumerik(blocks)), "the two controls round and chamfer differently")) << blocks;
   EXPECT_TRUE(lists(toKlartext(fromSinumerik("G1 X20 CHR=2\nG3 X20 Y20 CR=30\n")), "between straight lines only"));
   EXPECT_TRUE(lists(toSinumerik(fromKlartext("L X+20\nRND R2\nLBL 1\nL Y+20\n")), "is not followed by a path"));
+  EXPECT_TRUE(lists(toKlartext(fromSinumerik("G41 X20\nG42 X40\nG40 Y40\n")), "the side of radius"));
   EXPECT_TRUE(lists(toSinumerik(fromKlartext("L X+20 RL\nL X+40 RR\nL Y+40 R0\n")), "the side of radius"));
 }
 
