@@ -31,9 +31,13 @@ struct SearchTree::Walker {
   std::array<float, 3> up;  ///< unit, along the axis
   float disc;
   float length;
+  /// When the mover reaches the near side of something in the way, by the place of this side along each coordinate
+  /// axis: inverse * place - atNear; and when it is behind the far side.
+  std::array<float, 3> inverse;
+  std::array<float, 3> atNear;
+  std::array<float, 3> atFar;
+  std::array<std::uint32_t, 3> nearSide;  ///< 0: the minimum
   double offset;
-  Vector3 from;  ///< the start in the caller's frame
-  Vector3 towards;
   bool isBall;
 };
 
@@ -62,9 +66,7 @@ bool SearchTree::enter(const Mover& mover, Walker& w) const {
 
   w.isBall = mover.axis.isZero(0);
   w.offset = enterAt;
-  w.from = mover.way.start + enterAt * direction + mover.axis / 2;
-  w.towards = direction;
-  const Vector3 from = w.from - centre_;
+  const Vector3 from = start + enterAt * direction + mover.axis / 2;
   for (Eigen::Index a = 0; a < 3; ++a) {
     const auto i = static_cast<std::size_t>(a);
     w.start[i] = static_cast<float>(from[a]);
@@ -82,12 +84,25 @@ bool SearchTree::enter(const Mover& mover, Walker& w) const {
   w.slack = static_cast<float>(1.2e-7 * scale);
   w.radius = static_cast<float>(mover.radius * (1 + 1e-7));
   w.length = static_cast<float>(leaveAt - enterAt) + w.slack;
+  for (Eigen::Index a = 0; a < 3; ++a) {
+    const auto i = static_cast<std::size_t>(a);
+    const double along = std::copysign(std::max(std::abs(direction[a]), 1e-12), direction[a]);
+    const double extent = mover.radius + mover.disc + std::abs(mover.axis[a]) / 2;
+    // Six roundings, of 2^-24 each, lie behind a time: of the start, of the inverse, of both products, of both
+    // differences. What each does is no more than to move a place by 2^-24 of the numbers in play.
+    const double reach = std::copysign(extent + 4e-7 * (scale + extent), along);
+    w.inverse[i] = static_cast<float>(1 / along);
+    w.atNear[i] = static_cast<float>((from[a] + reach) / along);
+    w.atFar[i] = static_cast<float>((from[a] - reach) / along);
+    w.nearSide[i] = along > 0 ? 0 : 1;
+  }
   return true;
 }
 
 /// What the walk is made of, under short names, and the walk itself with either set of instructions.
 struct SearchTree::Walks {
   using Walker = SearchTree::Walker;
+  using GateRow = SearchTree::GateRow;
   using Node = SearchTree::Node;
   using Block = SearchTree::Block;
   using Visitor = SearchTree::Visitor;
@@ -102,8 +117,6 @@ struct SearchTree::Walks {
     std::size_t count = 0;
     float nearest = kNever;
   };
-  using Corners = std::array<std::array<Lanes, 3>, 3>;
-
   /// Boxes and blocks that are still to be looked at, in no order: to find the nearest of a few takes less time than to
   /// keep them sorted, which the processor cannot foresee.
   static constexpr std::size_t kMostPending = 240;
@@ -120,9 +133,12 @@ struct SearchTree::Walks {
       float bound;
       std::uint32_t child;
     };
-    std::array<Entry, 512> entries;
+    std::array<Entry, kWidth * kMostLevels> entries;
     std::size_t count = 0;
   };
+
+  /// By so much, at most, inverseRootAtMost is less.
+  static constexpr float kShorter = 1.5e-6F;
 
   /// Thirteen roundings, of 2^-24 each, of the numbers in play.
   static constexpr float kRounding = 8e-7F;
@@ -174,8 +190,9 @@ struct SearchTree::Walks {
         result[k] = std::sqrt(x[k]);
       return result;
     }
-    /// 1 / x or a little less, of positive numbers.
+    /// 1 / x and 1 / sqrt(x) or a little less, of positive numbers.
     PROBEWRIGHT_INLINE Lanes inverseAtMost(const Lanes& x) { return 1 / x; }
+    PROBEWRIGHT_INLINE Lanes inverseRootAtMost(const Lanes& x) { return 1 / root(x); }
     PROBEWRIGHT_INLINE Lanes grid(const Grid& numbers) {
       Lanes result;
       for (std::size_t k = 0; k < kWidth; ++k)
@@ -205,17 +222,6 @@ struct SearchTree::Walks {
       for (std::size_t k = 0; k < kWidth; ++k)
         to[k] = x[kOrder[set][k]];
     }
-    PROBEWRIGHT_INLINE Corners cornersFrom(const Block& block, const Vector3& from) {
-      Corners corners;
-      for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t k = 0; k < kWidth; ++k) {
-          const double* p = block.corner(block.at[i][k]);
-          for (std::size_t a = 0; a < 3; ++a)
-            corners[i][a][k] = static_cast<float>(p[a] - from[static_cast<Eigen::Index>(a)]);
-        }
-      }
-      return corners;
-    }
 #include "simulation/search_walk.inc"
   };
 
@@ -229,6 +235,10 @@ struct SearchTree::Walks {
     PROBEWRIGHT_INLINE Lanes root(const Lanes& x) { return _mm256_sqrt_ps(x); }
     PROBEWRIGHT_INLINE Lanes inverseAtMost(const Lanes& x) {
       return _mm256_rcp_ps(x) * every(1 - 5e-4F);  // right to 1 in 2,700
+    }
+    PROBEWRIGHT_INLINE Lanes inverseRootAtMost(const Lanes& x) {
+      const Lanes y = _mm256_rsqrt_ps(x);  // right to 1 in 2,700, and after a step of Newton's to 1 in 4 million
+      return y * (every(1.5F * (1 - kShorter / 2)) - every(0.5F * (1 - kShorter / 2)) * x * y * y);
     }
     PROBEWRIGHT_INLINE Lanes grid(const Grid& numbers) {
       const __m128i shorts = _mm_loadu_si128(reinterpret_cast<const __m128i*>(numbers.data()));
@@ -249,27 +259,6 @@ struct SearchTree::Walks {
     PROBEWRIGHT_INLINE void pack(const std::array<std::uint32_t, kWidth>& x, unsigned set, std::uint32_t* to) {
       const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(x.data()));
       _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_permutevar8x32_epi32(all, orderOf(set)));
-    }
-    PROBEWRIGHT_INLINE Corners cornersFrom(const Block& block, const Vector3& from) {
-      __m128 places[3 * kWidth];
-      const __m256d origin = _mm256_set_pd(0, from[2], from[1], from[0]);
-      for (std::size_t i = 0; i < block.cornerCount; ++i) {
-        places[i] = _mm256_cvtpd_ps(_mm256_sub_pd(_mm256_loadu_pd(block.corner(i)), origin));
-      }
-      Corners corners;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const auto& at = block.at[i];
-        const __m256 a = _mm256_set_m128(places[at[4]], places[at[0]]);
-        const __m256 b = _mm256_set_m128(places[at[5]], places[at[1]]);
-        const __m256 c = _mm256_set_m128(places[at[6]], places[at[2]]);
-        const __m256 d = _mm256_set_m128(places[at[7]], places[at[3]]);
-        const __m256 abLow = _mm256_unpacklo_ps(a, b), abHigh = _mm256_unpackhi_ps(a, b);
-        const __m256 cdLow = _mm256_unpacklo_ps(c, d), cdHigh = _mm256_unpackhi_ps(c, d);
-        corners[i][0] = _mm256_shuffle_ps(abLow, cdLow, 0x44);
-        corners[i][1] = _mm256_shuffle_ps(abLow, cdLow, 0xEE);
-        corners[i][2] = _mm256_shuffle_ps(abHigh, cdHigh, 0x44);
-      }
-      return corners;
     }
 #include "simulation/search_walk.inc"
   };

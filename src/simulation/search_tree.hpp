@@ -54,7 +54,8 @@ Instructions bestInstructions();
 /// slanted: a ball wider than the triangles would look at hundreds of them. So every box lies along the surface within
 /// it, and is as thin as the surface is flat. The bound for a box: no meeting before the ball's centre enters the box
 /// grown by the radius, and from there not before the ball has travelled the remaining distance between ball and box.
-/// The bound for an element is the same with its triangle.
+/// The bound for an element is the same with its triangle. Only the uppermost boxes, up to 128, lie along the
+/// coordinate axes: a search begins with all of them.
 class SearchTree {
 public:
   SearchTree() = default;
@@ -110,12 +111,25 @@ private:
   };
   static constexpr float kDirection = 32768;
 
-  /// Up to eight triangles and their corners, each corner once: as many doubles as needed follow.
+  /// Eight boxes along the coordinate axes, from the tree's centre: a search begins with all of them, one row after the
+  /// other, as that takes less time than to come down to them box by box.
+  struct alignas(64) GateRow {
+    std::array<std::array<Lane, 3>, 2> sides;  ///< the minimum, above the maximum where there is no box; the maximum
+    std::array<std::uint32_t, kWidth> child;
+  };
+  static constexpr std::size_t kMostGates = 128;
+  static constexpr std::size_t kMostLevels = 192;  ///< of nodes above one another
+
+  /// Up to eight triangles: their corners in whole numbers for the bounds, then, for exact meetings, each corner once;
+  /// as many doubles as needed follow.
   struct Block {
     std::uint32_t firstPlace;
-    float growth;  ///< the largest
-    std::uint32_t count;
+    float growth;                                        ///< the largest
+    std::array<float, 3> origin;                         ///< from the tree's centre
+    float unit;                                          ///< no coordinate is farther off than half of it
+    std::array<std::array<Grid, 3>, 3> grid;             ///< of each corner the coordinates from the origin, in units
     std::array<std::array<std::uint8_t, kWidth>, 3> at;  ///< the triangles' corners
+    std::uint32_t count;
     std::uint32_t cornerCount;
 
     const double* corner(std::size_t i) const { return reinterpret_cast<const double*>(this + 1) + 3 * i; }
@@ -147,10 +161,10 @@ private:
   static constexpr std::uint32_t kLeaf = 0x80000000U;
   static constexpr float kNever = 1e30F;
 
+  std::vector<GateRow> gates_;
   std::vector<Node> nodes_;
   std::vector<Line> lines_;  ///< of the blocks
   std::vector<std::uint32_t> order_;
-  std::uint32_t root_ = 0;
   bool exactTriangles_ = false;
   Instructions instructions_ = Instructions::Plain;
   Bounds bounds_;

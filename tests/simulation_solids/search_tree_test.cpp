@@ -152,6 +152,17 @@ TEST_P(SearchWith, FindsTheFirstTriangleInHeaps) {
     expectTheFirstMeetings(heap(random, count, 100), random, 400, 100, false);
 }
 
+TEST_P(SearchWith, FindsTheFirstTriangleWhereTheyGetSmallerWithoutEnd) {
+  // Halves of halves towards a corner make the deepest trees; a thousand times the same triangle cannot be split at
+  // all.
+  std::mt19937_64 random(20);
+  std::vector<SearchElement> elements;
+  for (double size = 100; size > 1e-25; size *= 0.9)
+    elements.push_back({{Vector3(size, 0, 0), Vector3(0, size, 0), Vector3(0.9 * size, 0.9 * size, 0.1 * size)}});
+  elements.insert(elements.end(), 1000, {{Vector3(20, 20, 20), Vector3(21, 20, 20), Vector3(20, 21, 20)}});
+  expectTheFirstMeetings(elements, random, 1000, 100, false);
+}
+
 TEST_P(SearchWith, FindsTheFirstTriangleForCapsules) {
   std::mt19937_64 random(14);
   expectTheFirstMeetings(landscape(random, 12, 100), random, 300, 100, true);
