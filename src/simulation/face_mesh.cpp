@@ -88,7 +88,7 @@ public:
 
 protected:
   Standard_Boolean UserBreak() override {
-    constexpr int kPointsPerSign = 1000;
+    constexpr int kPointsPerSign = 10000;
     if (left_ < 0 || --left_ < 0) return Standard_True;
     if (left_ % kPointsPerSign == 0 && goesOn_) goesOn_();
     return Standard_False;

@@ -30,11 +30,19 @@ std::optional<Eigen::VectorXd> CallRules::numbers(std::initializer_list<std::uin
 }
 
 void CallRules::add(std::uint32_t parameter, std::string message, std::string advice, Severity severity) {
-  mistakes_.push_back({parameter, severity, std::move(message), std::move(advice), {}});
+  mistakes_.push_back({parameter, severity, std::move(message), std::move(advice), false, {}});
 }
 
 void CallRules::refuse(std::string alarm, std::uint32_t parameter, std::string message, std::string advice) {
-  mistakes_.push_back({parameter, Severity::Error, std::move(message), std::move(advice), std::move(alarm)});
+  add(parameter, std::move(message), std::move(advice));
+  mistakes_.back().alarm = std::move(alarm);
+}
+
+void CallRules::refuseUnlessBlank(std::string alarm, std::initializer_list<std::uint32_t> parameters,
+                                  std::string message, std::string advice) {
+  refuse(std::move(alarm), *(parameters.end() - 1), std::move(message), std::move(advice));
+  const auto values = numbers(parameters);
+  mistakes_.back().isBlank = values && values->isZero(0);
 }
 
 namespace {

@@ -20,6 +20,8 @@ struct CallMistake {
   std::uint32_t parameter = 0;  ///< the one to look at
   Severity severity = Severity::Error;
   std::string message, advice;
+  bool isBlank =
+      false;  ///< of zeros, as manuals print a block that is not filled in: the run refuses it, a reader need not
   std::string alarm;  ///< with which the run refuses the call as it begins; empty: the cycle has words of its own
 };
 
@@ -40,6 +42,9 @@ public:
   void add(std::uint32_t parameter, std::string message, std::string advice, Severity severity = Severity::Error);
   /// An error that is the alarm of the run, too.
   void refuse(std::string alarm, std::uint32_t parameter, std::string message, std::string advice);
+  /// The same about several parameters, the last of them to be looked at; blank where all are 0.
+  void refuseUnlessBlank(std::string alarm, std::initializer_list<std::uint32_t> parameters, std::string message,
+                         std::string advice);
   /// A lower limit above the upper one means something in this cycle.
   void allowCrossedLimits() { crossedLimits_ = true; }
 

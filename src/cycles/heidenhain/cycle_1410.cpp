@@ -26,26 +26,26 @@ constexpr std::array results1410 = joined(
         ResultDefinition{"Q995", "the same as an angle of the rotary table", result::difference(of::tableAngle)}},
     verdictOfRotation);
 
-constexpr const char* refusedDirection = "Probing direction not permitted";
-constexpr const char* saysNothing = "Touches along the tool axis say nothing about the rotation in the working plane";
-constexpr const char* otherDirection = "probe along the main or minor axis (Q372), or set Q1121 = 0";
-
 /// The operator may choose another direction than Q372.
 void requireRotation(Context& context, int direction) {
   if (std::abs(direction) != 3 || context.option(1121) == 0) return;
-  throw control::Alarm(refusedDirection, saysNothing, otherDirection);
+  throw control::Alarm("Probing direction not permitted",
+                       "Touches along the tool axis say nothing about the rotation in the working plane",
+                       "probe along the main or minor axis (Q372), or set Q1121 = 0");
 }
 
 void rules(CallRules& call) {
   const auto direction = call.number(372);
   if (!direction) return;
   if (std::abs(*direction) == 3 && call.number(1121).value_or(0) != 0) {
-    call.refuse(refusedDirection, 372, saysNothing, otherDirection);
+    call.refuse("Probing direction not permitted", 372,
+                "Touches along the tool axis say nothing about the rotation in the working plane",
+                "probe along the main or minor axis (Q372), or set Q1121 = 0");
   }
   // Along the axis of probing the positions are where the edge is.
-  if (std::abs(*direction) == 1) planeRotationRules(call, {1101}, {1104});
-  if (std::abs(*direction) == 2) planeRotationRules(call, {1100}, {1103});
-  if (std::abs(*direction) == 3) planeRotationRules(call, {1100, 1101}, {1103, 1104});
+  if (std::abs(*direction) == 1) planeRotationRules(call, {1});
+  if (std::abs(*direction) == 2) planeRotationRules(call, {0});
+  if (std::abs(*direction) == 3) planeRotationRules(call, {0, 1});
 }
 
 constexpr LogTerm logTerms[] = {

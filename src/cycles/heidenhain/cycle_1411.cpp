@@ -89,15 +89,17 @@ void rules(CallRules& call) {
   for (const std::uint32_t parameter : {1116U, 1117U}) {
     const auto diameter = call.value(parameter);
     if (!diameter || isKnownDiameter(*diameter)) continue;
-    call.refuse("Diameter wrong", parameter, "The diameter of an object must be known and larger than 0",
-                "enter it as a number, or as a text with a tolerance");
+    call.refuseUnlessBlank("Diameter wrong", {parameter}, "The diameter of an object must be known and larger than 0",
+                           "enter it as a number, or as a text with a tolerance");
   }
-  planeRotationRules(call, {1100, 1101}, {1103, 1104});
+  planeRotationRules(call, {0, 1});
 }
 
 constexpr LogTerm logTerms[] = {
     {"PROBING TWO CIRCLES", "IZMERENIJE DVUH OKRUZHNOSTEY", "AVKAENNING TVAA CIRKLAR"},
 };
+
+constexpr Example examples[] = {{"Q1119", 360}};
 
 constexpr CycleDefinition definition = {
     .number = 1411,
@@ -110,6 +112,7 @@ constexpr CycleDefinition definition = {
     .parameters = parameters1411,
     .results = results1411,
     .controls = control::onTNC640,
+    .examples = examples,
 };
 
 void run(Context& context, const Arguments&) {

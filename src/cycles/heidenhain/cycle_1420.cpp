@@ -51,10 +51,6 @@ constexpr std::array results1420 = joined(
             "Q988", {"deviation of the ", "third position, tool axis"}, result::difference(of::position3.number(3))}},
     verdictOfRotation);
 
-constexpr const char* wrongPlane = "Plane wrongly defined";
-constexpr const char* onOneLine = "The three points lie on one straight line";
-constexpr const char* triangle = "choose points that span a triangle";
-
 bool spanATriangle(const Vector3& p1, const Vector3& p2, const Vector3& p3) {
   const Vector3 a = p2 - p1, b = p3 - p1;
   return a.norm() >= 1e-6 && a.cross(b).norm() > 1e-6 * a.norm() * b.norm();
@@ -63,13 +59,17 @@ bool spanATriangle(const Vector3& p1, const Vector3& p2, const Vector3& p3) {
 void rules(CallRules& call) {
   const auto p1 = call.numbers({1100, 1101, 1102}), p2 = call.numbers({1103, 1104, 1105}),
              p3 = call.numbers({1106, 1107, 1108});
-  if (p1 && p2 && p3 && !spanATriangle(*p1, *p2, *p3)) call.refuse(wrongPlane, 1108, onOneLine, triangle);
+  if (p1 && p2 && p3 && !spanATriangle(*p1, *p2, *p3))
+    call.refuseUnlessBlank("Plane wrongly defined", {1100, 1101, 1102, 1103, 1104, 1105, 1106, 1107, 1108},
+                           "The three points lie on one straight line", "choose points that span a triangle");
 }
 
 /// The normal of the plane through three points, on the side of `towards`.
 PlaneWay normalOf(const PartPoint& p1, const PartPoint& p2, const PartPoint& p3, const PlaneWay& towards) {
   const PlaneWay cross = (p2 - p1).cross(p3 - p1);
-  if (!spanATriangle(p1.vector(), p2.vector(), p3.vector())) throw control::Alarm(wrongPlane, onOneLine, triangle);
+  if (!spanATriangle(p1.vector(), p2.vector(), p3.vector()))
+    throw control::Alarm("Plane wrongly defined", "The three points lie on one straight line",
+                         "choose points that span a triangle");
   const PlaneWay normal = cross.normalized();
   return normal.dot(towards) < 0 ? -normal : normal;
 }

@@ -25,6 +25,8 @@ constexpr Parameter parameters400[] = {
     standard(tableRow, 0),
 };
 
+constexpr Example examples[] = {{"Q266", 30}};
+
 constexpr CycleDefinition definition = {
     .number = 400,
     .name = "400",
@@ -33,6 +35,7 @@ constexpr CycleDefinition definition = {
     .summary = "Measures the misalignment of an edge by two touches and compensates it by a basic rotation.",
     .parameters = parameters400,
     .results = {},
+    .examples = examples,
 };
 
 void run(Context& context, const Arguments&) {

@@ -22,6 +22,8 @@ constexpr Parameter parameters401[] = {
     setToZero,
 };
 
+constexpr Example examples[] = {{"Q270", 60}};
+
 constexpr CycleDefinition definition = {
     .number = 401,
     .name = "401",
@@ -32,6 +34,7 @@ constexpr CycleDefinition definition = {
         "the rotary table.",
     .parameters = parameters401,
     .results = {},
+    .examples = examples,
 };
 
 void run(Context& context, const Arguments&) {

@@ -27,6 +27,8 @@ constexpr Parameter parameters402[] = {
     setToZero,
 };
 
+constexpr Example examples[] = {{"Q270", 60}};
+
 constexpr CycleDefinition definition = {
     .number = 402,
     .name = "402",
@@ -37,6 +39,7 @@ constexpr CycleDefinition definition = {
         "the rotary table.",
     .parameters = parameters402,
     .results = {},
+    .examples = examples,
 };
 
 void run(Context& context, const Arguments&) {

@@ -83,7 +83,7 @@ double angleAbout(int axis, int from, const ProgramWay& along) {
 }
 
 constexpr Example examples[] = {
-    {"Q312", 6},  // the C axis
+    {"Q266", 30}, {"Q312", 6},  // the C axis
 };
 
 constexpr CycleDefinition definition = {

@@ -30,6 +30,8 @@ constexpr ResultDefinition results414[] = {
     {"Q152", {"actual ", "corner, minor axis"}, result::actual(of::corner2).main()},
 };
 
+constexpr Example examples[] = {{"Q296", 10}, {"Q297", 10}, {"Q326", 20}, {"Q327", 20}};
+
 constexpr CycleDefinition definition = {
     .number = 414,
     .name = "414",
@@ -40,6 +42,7 @@ constexpr CycleDefinition definition = {
         "set a basic rotation from the first side.",
     .parameters = parameters414,
     .results = results414,
+    .examples = examples,
 };
 
 void rules(CallRules& call) {

@@ -33,6 +33,8 @@ constexpr ResultDefinition results418[] = {
     {"Q152", {"actual ", "intersection, minor axis"}, result::actual(of::corner2).main()},
 };
 
+constexpr Example examples[] = {{"Q270", 60}, {"Q316", 60}, {"Q317", 40}, {"Q319", 40}};
+
 constexpr CycleDefinition definition = {
     .number = 418,
     .name = "418",
@@ -41,6 +43,7 @@ constexpr CycleDefinition definition = {
     .summary = "Measures four holes and sets the preset to the point where the lines through opposite centres cross.",
     .parameters = parameters418,
     .results = results418,
+    .examples = examples,
 };
 
 using metrology::Line2;
@@ -51,20 +54,18 @@ std::optional<Vector2> crossingOf(const Vector2& first, const Vector2& second, c
   return crossing ? std::optional<Vector2>(*crossing) : std::nullopt;
 }
 
-constexpr const char* alarm = "Intersection not determined";
-constexpr const char* parallel = "The lines through holes 1 and 3 and through holes 2 and 4 are parallel";
-constexpr const char* inOrder = "give the holes in their order around the intersection";
-
 void rules(CallRules& call) {
   const auto first = call.numbers({268, 269}), second = call.numbers({270, 271}), third = call.numbers({316, 317}),
              fourth = call.numbers({318, 319});
   if (!first || !second || !third || !fourth) return;
   if (first == third || second == fourth) {
-    call.refuse(alarm, first == third ? 317 : 319,
+    call.refuse("Intersection not determined", first == third ? 317 : 319,
                 fmt::format("Holes {} lie at the same place", first == third ? "1 and 3" : "2 and 4"),
                 "give four different holes");
   } else if (!crossingOf(*first, *second, *third, *fourth)) {
-    call.refuse(alarm, 319, parallel, inOrder);
+    call.refuse("Intersection not determined", 319,
+                "The lines through holes 1 and 3 and through holes 2 and 4 are parallel",
+                "give the holes in their order around the intersection");
   }
 }
 
@@ -75,7 +76,10 @@ void run(Context& context, const Arguments&) {
     centres.push_back(measureHoleCentre(context, {context.q(main), context.q(minor)}, context.q(261)).inPlane());
   }
   const auto crossing = crossingOf(centres[0], centres[1], centres[2], centres[3]);
-  if (!crossing) throw control::Alarm(alarm, parallel, inOrder);
+  if (!crossing)
+    throw control::Alarm("Intersection not determined",
+                         "The lines through holes 1 and 3 and through holes 2 and 4 are parallel",
+                         "give the holes in their order around the intersection");
   context.result(151, crossing->x());
   context.result(152, crossing->y());
   finishPreset(context, {.measured = {crossing->x(), crossing->y(), context.q(261)},

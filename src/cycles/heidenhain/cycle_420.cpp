@@ -34,6 +34,8 @@ constexpr LogTerm logTerms[] = {
     {"Angle Measuring", "Измерение угла", "Mätning vinkel"},
 };
 
+constexpr Example examples[] = {{"Q266", 30}};
+
 constexpr CycleDefinition definition = {
     .number = 420,
     .name = "420",
@@ -42,6 +44,7 @@ constexpr CycleDefinition definition = {
     .summary = "Measures the angle of an edge to the main axis, or of a surface along the touch probe axis.",
     .parameters = parameters420,
     .results = results420,
+    .examples = examples,
 };
 
 bool same(double one, double other) { return std::abs(one - other) <= 1e-4; }

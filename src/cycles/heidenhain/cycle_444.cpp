@@ -100,6 +100,8 @@ constexpr LogTerm logTerms[] = {
     {"Along the normal", "По нормали", "Längs normalen"},
 };
 
+constexpr Example examples[] = {{"Q583", 1}};
+
 constexpr CycleDefinition definition = {
     .number = 444,
     .name = "444",
@@ -111,6 +113,7 @@ constexpr CycleDefinition definition = {
     .parameters = parameters444,
     .results = results444,
     .controls = control::onTNC640,
+    .examples = examples,
 };
 
 void run(Context& context, const Arguments&) {

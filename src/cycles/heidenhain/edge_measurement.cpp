@@ -6,20 +6,14 @@
 
 namespace probewright::cycles::heidenhain {
 
-namespace {
-
-constexpr const char* coincide = "The two touches coincide";
-constexpr const char* moveApart = "move the points apart";
-
-}  // namespace
-
 void edgeRules(CallRules& call) {
   const auto axis = call.number(272);
   const auto main = call.numbers({263, 265}), minor = call.numbers({264, 266});
   // Along the measuring axis the points are where the edge is.
   const bool sameMain = axis == 1 || (main && (*main)[0] == (*main)[1]);
   const bool sameMinor = axis == 2 || (minor && (*minor)[0] == (*minor)[1]);
-  if (axis && sameMain && sameMinor) call.refuse("Edge not determined", axis == 2 ? 265 : 266, coincide, moveApart);
+  if (axis && sameMain && sameMinor)
+    call.refuse("Edge not determined", axis == 2 ? 265 : 266, "The two touches coincide", "move the points apart");
 }
 
 MeasuredEdge measureEdge(Context& context) {
@@ -29,7 +23,7 @@ MeasuredEdge measureEdge(Context& context) {
   const PlannedTouch second{{context.q(265), context.q(266), height}, direction};
   const auto requireApart = [](const PlaneWay& along) {
     if (along.norm() >= 1e-6) return;
-    throw control::Alarm("Edge not determined", coincide, moveApart);
+    throw control::Alarm("Edge not determined", "The two touches coincide", "move the points apart");
   };
   const auto touches = probing::probePoints(context.prober(), {{first}, {second}},
                                             {.measuring = height,

@@ -10,13 +10,6 @@
 #include "probing/heidenhain_strategies.hpp"
 
 namespace probewright::cycles::heidenhain {
-namespace {
-
-constexpr const char* centresCoincide = "The two centres coincide";
-constexpr const char* moveApart = "move the points apart";
-
-}  // namespace
-
 PartPoint measureHoleCentre(Context& context, const Vector2& centre, double measuringHeight) {
   auto& prober = context.prober();
   BallCentre place(centre.x(), centre.y(), measuringHeight);
@@ -49,13 +42,15 @@ PartPoint measureStudCentre(Context& context, const Vector2& centre, double diam
 
 double angleOf(const Vector2& first, const Vector2& second) {
   const Vector2 along = second - first;
-  if (along.norm() < 1e-6) throw control::Alarm("Angle not determined", centresCoincide, moveApart);
+  if (along.norm() < 1e-6)
+    throw control::Alarm("Angle not determined", "The two centres coincide", "move the points apart");
   return degreesFromRadians(std::atan2(along.y(), along.x()));
 }
 
 void twoHoleRules(CallRules& call) {
   const auto first = call.numbers({268, 269}), second = call.numbers({270, 271});
-  if (first && first == second) call.refuse("Angle not determined", 271, centresCoincide, moveApart);
+  if (first && first == second)
+    call.refuse("Angle not determined", 271, "The two centres coincide", "move the points apart");
 }
 
 void requireCompensation(Context& context) {

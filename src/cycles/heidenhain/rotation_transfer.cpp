@@ -20,9 +20,6 @@ using machine::MachineDescription;
 
 namespace {
 
-constexpr const char* positionsCoincide = "The two positions coincide in the working plane";
-constexpr const char* moveApart = "move them apart";
-
 Vector3 toolDirection(Context& context) {
   Vector3 direction = Vector3::Zero();
   direction[context.control().coordinates.plane.tool] = 1;
@@ -154,10 +151,13 @@ Pose workpieceTurn(Context& context, std::size_t axis, double degrees) {
 
 }  // namespace
 
-void planeRotationRules(CallRules& call, std::initializer_list<std::uint32_t> first,
-                        std::initializer_list<std::uint32_t> second) {
-  const auto one = call.numbers(first), other = call.numbers(second);
-  if (one && one == other) call.refuse("Angle not determined", *second.begin(), positionsCoincide, moveApart);
+void planeRotationRules(CallRules& call, std::initializer_list<std::uint32_t> axes) {
+  for (const std::uint32_t axis : axes) {
+    const auto along = call.numbers({1100 + axis, 1103 + axis});
+    if (!along || (*along)[0] != (*along)[1]) return;
+  }
+  call.refuseUnlessBlank("Angle not determined", {1100, 1101, 1103, 1104},
+                         "The two positions coincide in the working plane", "move them apart");
 }
 
 void requireRotationCycle(Context& context) {
@@ -203,7 +203,7 @@ std::optional<TableAxis> alignmentAxis(Context& context) {
 PlaneRotation planeRotation(Context& context, const MeasuredPosition& first, const MeasuredPosition& second) {
   const auto angle = [](const Vector3& along) {
     if (along.head<2>().norm() < 1e-6) {
-      throw Alarm("Angle not determined", positionsCoincide, moveApart);
+      throw Alarm("Angle not determined", "The two positions coincide in the working plane", "move them apart");
     }
     return degreesFromRadians(std::atan2(along.y(), along.x()));
   };

@@ -8,9 +8,8 @@
 /// What cycles 1410, 1411 and 1420 do with position and rotation: Q1120, Q1121, Q1126. The active preset takes it.
 namespace probewright::cycles::heidenhain {
 
-/// Refuses two positions that coincide in the coordinates of these parameters.
-void planeRotationRules(CallRules& call, std::initializer_list<std::uint32_t> first,
-                        std::initializer_list<std::uint32_t> second);
+/// Refuses two positions that coincide: `axes` of the coordinates from Q1100 and from Q1103 on say where they lie.
+void planeRotationRules(CallRules& call, std::initializer_list<std::uint32_t> axes);
 
 /// Refuses what cannot be done before the probe moves: Q1126 without Q1121, a preset that must not be written.
 void requireRotationCycle(Context& context);

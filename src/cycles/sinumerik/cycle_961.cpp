@@ -131,8 +131,6 @@ struct Distances {
 /// The angle from edge to edge of a corner.
 bool isOpening(double degrees) { return std::abs(std::sin(radiansFromDegrees(degrees))) >= 0.01; }
 
-constexpr const char* wrongOpening = "S_INCA is not a possible angle of a corner";
-
 Plan planOf(Context& context) {
   Plan plan;
   const bool rightAngled = context.digit("S_MVAR", 1) <= 6;
@@ -159,7 +157,7 @@ Plan planOf(Context& context) {
     if (std::abs(plan.axisAngle) > 270) context.alarm(61319, "S_STA1 is between -270 and 270 degrees");
     const double opening = rightAngled ? 90 : context.real("S_INCA");
     if (std::abs(opening) > 180) context.alarm(61319, "S_INCA is between -180 and 180 degrees");
-    if (!isOpening(opening)) context.alarm(61319, wrongOpening);
+    if (!isOpening(opening)) context.alarm(61319, "S_INCA is not a possible angle of a corner");
     const Vector2 first = probing::directionAt(plan.axisAngle).inPlane();
     const Vector2 second = probing::directionAt(plan.axisAngle + opening).inPlane();
     const Distances distances({value(0), value(1), value(2), value(3)}, context.digit("S_MVAR", 5), rightAngled);
@@ -191,7 +189,7 @@ constexpr Requirement requirements[] = {
 void checkDistances(CallCombinations& call) {
   const bool rightAngled = call.digit(1) <= 6;
   if (const auto opening = call.number("S_INCA"); !rightAngled && opening && !isOpening(*opening))
-    call.refuse("S_INCA", wrongOpening);
+    call.refuse("S_INCA", "S_INCA is not a possible angle of a corner");
   double given[4];
   for (int i = 0; i < 4; ++i) {
     const auto distance = call.number(fmt::format("S_SETV{}", i));

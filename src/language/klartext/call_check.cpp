@@ -117,6 +117,7 @@ void CallCheck::checkTogether(const cycles::CycleDefinition& cycle, std::span<co
     return standard;
   };
   for (cycles::heidenhain::CallMistake& mistake : cycles::heidenhain::callMistakes(cycle, kind_, known)) {
+    if (mistake.isBlank) continue;
     const auto word = wordOf(mistake.parameter);
     if (word == words.end()) {
       remark(std::move(mistake.message), std::move(mistake.advice), mistake.severity);
