@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "language/din_iso/parser.hpp"
+#include "language/klartext/formula_writer.hpp"
 #include "language/klartext/writer.hpp"
 
 /// D00 to D38, the twins of FN 0 to FN 38. "Dnn:" is followed by what stands after FN nn in Klartext.

@@ -12,6 +12,7 @@
 #include "cycles/heidenhain/call_rules.hpp"
 #include "cycles/heidenhain/probe_words.hpp"
 #include "language/klartext/commands.hpp"
+#include "language/klartext/cycle_writer.hpp"
 #include "metrology/tolerance.hpp"
 
 namespace probewright::language::klartext {
