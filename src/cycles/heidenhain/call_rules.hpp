@@ -20,8 +20,8 @@ struct CallMistake {
   std::uint32_t parameter = 0;  ///< the one to look at
   Severity severity = Severity::Error;
   std::string message, advice;
-  bool isBlank =
-      false;  ///< of zeros, as manuals print a block that is not filled in: the run refuses it, a reader need not
+  /// Of zeros, as manuals print a block that is not filled in yet: the run refuses it, a reader need not be told.
+  bool isBlank = false;
   std::string alarm;  ///< with which the run refuses the call as it begins; empty: the cycle has words of its own
 };
 
