@@ -54,6 +54,19 @@ TEST(Cycle414, TurnsTheActivePresetWhereADatumTableTakesTheCorner) {
   }
 }
 
+/// A datum table whose column Y is too narrow for the corner refuses it: the basic rotation, which would go into the
+/// preset table, is not set either.
+TEST(Cycle414, TurnsNothingWhereTheDatumTableRefusesTheCorner) {
+  SkewedCorner world(ControlKind::TNC640);
+  const TableFolder folder(world.bench);
+  folder.put("ZERO.D", "BEGIN ZERO .D MM\nNR X         Y    Z         \n4  +7        +8   +9        \n[END]\n");
+  const Ran ran = world.bench.run("SEL TABLE \"ZERO.D\"\n" + probe(414, with(world.words(), {{303, 0}, {305, 4}})));
+  EXPECT_EQ(ran.alarm(), "Table write error");
+  EXPECT_TRUE(ran.preset().isApprox(pose(origin, {0, 0, 12}), 1e-12));
+  EXPECT_EQ(ran.cell("PRESET.PR", "1", "SPC"), 12);
+  EXPECT_EQ(ran.cell("ZERO.D", "4", "X"), 7);
+}
+
 TEST(Cycle414, TakesARotationByCycle10IntoThePreset) {
   const std::string turn = "CYCL DEF 10.0 ROTATION\nCYCL DEF 10.1 ROT+5\n";
   for (const ControlKind kind : {ControlKind::TNC640, ControlKind::iTNC530}) {

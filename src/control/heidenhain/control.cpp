@@ -53,12 +53,19 @@ void Control::note(const TypedTable& table, const std::string& row, Column colum
   journal.write({table.table().name(), fmt::format("row {}, column {}", row, column.name()), before, after});
 }
 
-void Control::writeNumbers(const std::vector<NumberCell>& cells) {
+std::map<TypedTable*, TypedTable> Control::tablesWith(const std::vector<NumberCell>& cells) {
   std::map<TypedTable*, TypedTable> changed;
   for (const NumberCell& cell : cells) {
     TypedTable& table = changed.try_emplace(&cell.table, cell.table).first->second;
     check(table.setNumber(cell.row, cell.column, cell.value));
   }
+  return changed;
+}
+
+void Control::requireRoomFor(const std::vector<NumberCell>& cells) const { tablesWith(cells); }
+
+void Control::writeNumbers(const std::vector<NumberCell>& cells) {
+  std::map<TypedTable*, TypedTable> changed = tablesWith(cells);
   for (auto& [table, content] : changed)
     std::swap(*table, content);
   for (const NumberCell& cell : cells)

@@ -154,6 +154,8 @@ public:
   /// Writes cells that belong together and records what changed. Throws Alarm, with nothing written, if a table refuses
   /// one of them.
   void writeNumbers(const std::vector<NumberCell>& cells);
+  /// Throws the same, and writes nothing.
+  void requireRoomFor(const std::vector<NumberCell>& cells) const;
   /// Write a cell (numbers in mm, degrees, mm/min) and record what changed. Throw Alarm if the table refuses it.
   void writeNumber(TypedTable& table, const std::string& row, NumberColumn column, double value);
   void writeText(TypedTable& table, const std::string& row, Column column, const std::string& value);
@@ -163,6 +165,8 @@ public:
 private:
   /// The row called, or, where it is locked, the first of its replacement tools (RT) that is not. Throws Alarm.
   std::string usableTool(const std::string& called);
+  /// The tables of cells as they are once the cells are written.
+  static std::map<TypedTable*, TypedTable> tablesWith(const std::vector<NumberCell>& cells);
   void note(const TypedTable& table, const std::string& row, Column column, const std::string& before);
 
   ControlKind kind_;

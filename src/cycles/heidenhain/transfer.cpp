@@ -139,14 +139,16 @@ void writeDatumRow(Context& context, int row, const NewPreset& preset) {
   Control& control = context.control();
   const auto& plane = control.coordinates.plane;
   const PartInMachine inMachine = context.channel().machineFromProgram(plane.xyzFromPlane(preset.measured));
+  Coordinates coordinates = control.coordinates;
+  // No column of a datum table takes a basic rotation: the active preset does.
+  Control::PresetChange turned;
   if (preset.rotation) {
-    // No column of a datum table takes a basic rotation: the active preset does.
-    Control::PresetChange change;
-    setAngles(context, turnedAxes(context, *preset.rotation, Transformation::Remains), change);
-    writePresetRow(context, control.coordinates.preset.row, change);
+    setAngles(context, turnedAxes(context, *preset.rotation, Transformation::Remains), turned);
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (turned.spaceAngles[i]) coordinates.preset.spaceAngles[static_cast<Eigen::Index>(i)] = *turned.spaceAngles[i];
+    }
   }
   // Datum shifts count from the preset along its axes, or in the tilted plane.
-  const Coordinates& coordinates = control.coordinates;
   Eigen::Affine3d shifted(coordinates.machineFromPreset().matrix());
   if (coordinates.tilt) shifted = shifted * coordinates.workpiece.matrix(plane) * Eigen::Affine3d(*coordinates.tilt);
   const Vector3 feature = shifted.inverse() * inMachine.vector();
@@ -158,6 +160,9 @@ void writeDatumRow(Context& context, int row, const NewPreset& preset) {
     cells.push_back({activeDatumTable(context), std::to_string(row), names[static_cast<std::size_t>(axis)],
                      feature[axis] - *preset.wish[i]});
   }
+  // What one of the tables refuses leaves both as they were.
+  control.requireRoomFor(cells);
+  if (preset.rotation) writePresetRow(context, control.coordinates.preset.row, turned);
   control.writeNumbers(cells);
 }
 
