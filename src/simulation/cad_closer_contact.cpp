@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "simulation/ball_on_face.hpp"
 #include "simulation/cad_contact.hpp"
 #include "simulation/surface_steps.hpp"
 #include "simulation/touch_proof.hpp"
@@ -30,6 +31,7 @@ public:
         way_(way),
         radius_(radius),
         best_(best),
+        ball_(face, way, radius, best),
         proof_(surface_, way, radius) {
     if (question.isSolved) addTouch({question.at, question.when});
   }
@@ -40,7 +42,7 @@ public:
   }
 
   /// Boxes, those first that would be met first, until all is known or they are as good as the surface.
-  void closely() {
+  void closely(int& boxesLeft) {
     consider({region_.whole(), -1e300});
     for (int looked = 0; !open_.empty() && best_.when >= 0; ++looked) {
       std::pop_heap(open_.begin(), open_.end(), later);
@@ -50,7 +52,7 @@ public:
       constexpr int kMany = 400;
       const double same = looked < kMany ? kSame : kSameAmongMany;
       if (next.soonest > std::min(best_.when - same, latest_ + kSame)) return;
-      if (next.isFlat || looked >= kMostParts) {
+      if (next.isFlat || looked >= kMostParts || --boxesLeft < 0) {
         meetFlat(next);
         continue;
       }
@@ -286,16 +288,7 @@ private:
   State settles(const Part& part, const Plane& plane, const Times& times, const Meeting& coarse) {
     const ParameterBox& box = part.box;
     const Vector2 extent = box.high - box.low;
-    if (coarse.when < 0) {
-      Vector2 nearest = box.middle();
-      if (projectOntoSurface(surface_, way_.start, extent, nearest)) {
-        const double gap = gapAt(0, nearest);
-        if (gap < -kTouchTolerance && gap < best_.when && face_.domain.contains(nearest)) {
-          meet(gap, nearest);
-          return State::Done;
-        }
-      }
-    }
+    if (coarse.when < 0 && ball_.meetsAtStart(box.middle(), extent)) return State::Done;
     // The piece of the plane itself, where it is met at all, gives a better start than the grown one.
     Meeting met;
     plane.sweep(way_, radius_, met);
@@ -306,7 +299,7 @@ private:
     const ParameterBox within{box.low - kBeyond * extent, box.high + kBeyond * extent};
     if (!solveSurfaceTouch(surface_, way_, radius_, extent, &within, at, when)) return State::Open;
     if ((way_.at(when) - surface_.at(at).point).dot(way_.direction) >= 0) return State::Open;
-    accept(when, at);
+    ball_.accept(when, at);
     addTouch({at, when});
     return answers(touches_.back(), box, times) ? State::Done : State::Open;
   }
@@ -352,35 +345,7 @@ private:
     flat.when = best_.when - 4 * std::min(plane.growth, kSame);
     if (!plane.sweep(way_, radius_, flat)) return;
     const Vector2 at = parametersOf(plane, part, flat.point);
-    if (face_.domain.contains(at)) meet(flat.when, at);
-  }
-
-  void meet(double when, const Vector2& at) {
-    const SurfacePoint s = surface_.at(at);
-    const Vector3 normal = s.u.cross(s.v);
-    keep(best_, when, s.point,
-         normal.norm() > 0 ? Vector3(normal.normalized() * (face_.reversed ? -1 : 1)) : Vector3::Zero());
-  }
-
-  double gapAt(double when, const Vector2& at) const {
-    return (way_.at(when) - surface_.at(at).point).norm() - radius_;
-  }
-
-  /// Takes a touch of the whole surface as a contact if the face is there and the ball goes on into it. False if the
-  /// face is not there.
-  bool accept(double when, const Vector2& at) {
-    if (!face_.domain.contains(at)) return false;
-    if (when < -1e-7 || when > way_.length || when >= best_.when) return true;
-    if (std::abs(gapAt(when, at)) > 1e-7) return true;
-    // A ball that touches at the start within the tolerance and would graze only has nothing to meet.
-    Vector2 later = at;
-    const double end = std::min(way_.length, std::max(when, 0.0) + 1e-3 * radius_);
-    constexpr double kAnywhere = 1e6;
-    if (projectOntoSurface(surface_, way_.at(end), Vector2(kAnywhere, kAnywhere), later) &&
-        gapAt(end, later) >= -kTouchTolerance)
-      return true;
-    meet(std::max(0.0, when), at);
-    return true;
+    if (face_.domain.contains(at)) ball_.meet(flat.when, at);
   }
 
   const CadFace& face_;
@@ -389,6 +354,7 @@ private:
   const Way& way_;
   double radius_;
   Meeting& best_;
+  BallOnFace ball_;
   TouchProof proof_;
   std::vector<Part> open_;
   std::vector<SurfaceTouch> touches_;
@@ -403,8 +369,9 @@ bool isClearBefore(const CadFace& face, const FaceQuestion& question, const Way&
   return CloserLook(face, question, way, radius, none).isClear(question);
 }
 
-void meetFaceClosely(const CadFace& face, const FaceQuestion& question, const Way& way, double radius, Meeting& best) {
-  CloserLook(face, question, way, radius, best).closely();
+void meetFaceClosely(const CadFace& face, const FaceQuestion& question, const Way& way, double radius, int& boxesLeft,
+                     Meeting& best) {
+  CloserLook(face, question, way, radius, best).closely(boxesLeft);
 }
 
 }  // namespace probewright::simulation

@@ -35,13 +35,16 @@ bool isClearBefore(const CadFace& face, const FaceQuestion& question, const Way&
 
 /// The closer look: finds what the ball meets near a triangle before it makes the best contact so far, and proves that
 /// there is nothing else. The faster the more is known already of other faces and edges.
-void meetFaceClosely(const CadFace& face, const FaceQuestion& question, const Way& way, double radius, Meeting& best);
+/// `boxesLeft` counts down what is looked at; when it is used up, planes stand for what is left of the surface.
+void meetFaceClosely(const CadFace& face, const FaceQuestion& question, const Way& way, double radius, int& boxesLeft,
+                     Meeting& best);
 
 /// A straight or round edge with its ends, whole.
 void meetSimpleEdge(const CadEdge& edge, const Way& way, double radius, Meeting& best);
 
 /// Any edge near one of its chords, with the chord's ends. The kink of a face counts within the face's domain only.
+/// `piecesLeft` counts down what is looked at; when it is used up, chords stand for what is left of the edge.
 void meetEdgeNear(const CadEdge& edge, const TrimmedDomain* within, const CadElement& chord, const Way& way,
-                  double radius, Meeting& best);
+                  double radius, int& piecesLeft, Meeting& best);
 
 }  // namespace probewright::simulation

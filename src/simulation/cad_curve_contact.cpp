@@ -12,8 +12,15 @@ namespace {
 /// One search for the contact of a ball with a curved edge.
 class EdgeSearch {
 public:
-  EdgeSearch(const CadEdge& edge, const TrimmedDomain* within, const Way& way, double radius, Meeting& best)
-      : edge_(edge), curve_(**edge.bounded), within_(within), way_(way), radius_(radius), best_(best) {}
+  EdgeSearch(const CadEdge& edge, const TrimmedDomain* within, const Way& way, double radius, int& piecesLeft,
+             Meeting& best)
+      : edge_(edge),
+        curve_(**edge.bounded),
+        within_(within),
+        way_(way),
+        radius_(radius),
+        piecesLeft_(piecesLeft),
+        best_(best) {}
 
   /// Looks near the chord between two parameters.
   void near(double low, double high) {
@@ -46,7 +53,7 @@ private:
     if (!sweepSegment(way_, radius_ + kRounding + deviation, from, to, coarse)) return;
     if (coarse.when > best_.when - kSame) return;
     constexpr int kMost = 40;
-    if (deviation < kStraight || halvings == kMost) return meetStraight(low, high, from, to);
+    if (deviation < kStraight || halvings == kMost || --piecesLeft_ < 0) return meetStraight(low, high, from, to);
     // A touch of one half is seldom that of the other: not each needs a search.
     constexpr int kOnceIn = 3;
     if (halvings % kOnceIn == 0 && settles(low, high, coarse)) return;
@@ -174,14 +181,15 @@ private:
   const TrimmedDomain* within_;
   const Way& way_;
   double radius_;
+  int& piecesLeft_;
   Meeting& best_;
 };
 
 }  // namespace
 
 void meetEdgeNear(const CadEdge& edge, const TrimmedDomain* within, const CadElement& chord, const Way& way,
-                  double radius, Meeting& best) {
-  EdgeSearch(edge, within, way, radius, best).near(chord.parameters[0].x(), chord.parameters[1].x());
+                  double radius, int& piecesLeft, Meeting& best) {
+  EdgeSearch(edge, within, way, radius, piecesLeft, best).near(chord.parameters[0].x(), chord.parameters[1].x());
 }
 
 }  // namespace probewright::simulation

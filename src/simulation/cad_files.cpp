@@ -11,6 +11,7 @@
 #include "base/file.hpp"
 #include "simulation/cad_import.hpp"
 #include "simulation/cad_solid.hpp"
+#include "simulation/freeform_surface.hpp"
 #include "simulation/import_cache.hpp"
 #include "simulation/import_watch.hpp"
 
@@ -39,6 +40,22 @@ void warnOfDoubtfulArcs(const CadModel& model, Diagnostics& remarks) {
                      {}});
 }
 
+/// About faces whose weights no CAD system would write: what is proven of other splines is not of these.
+void warnOfExtremeWeights(const CadModel& model, Diagnostics& remarks) {
+  constexpr double kMostRatio = 1e4;
+  const auto extreme =
+      std::ranges::count_if(model.faces, [](const CadFace& face) { return weightRatio(face.surface) > kMostRatio; });
+  if (extreme == 0) return;
+  remarks.push_back({Severity::Warning,
+                     {},
+                     fmt::format("the weights of the splines of {} of {} faces differ by more than {:.0f} times, as by "
+                                 "a wrong digit in the file: contacts there may be wrong or missing",
+                                 extreme, model.faces.size(), kMostRatio),
+                     {},
+                     "export the part again, or repair these faces in the CAD system",
+                     {}});
+}
+
 Result<std::unique_ptr<Solid>> solidOf(ImportedPart part, CadFormat format, const std::string& file, ImportWatch& watch,
                                        const std::function<CadModel()>& exact) {
   const auto broken = [&](const char* reason) -> tl::unexpected<Diagnostic> {
@@ -53,6 +70,7 @@ Result<std::unique_ptr<Solid>> solidOf(ImportedPart part, CadFormat format, cons
     takeElements(model, part.elements);
     watch.goOn();
     if (format == CadFormat::Step) warnOfDoubtfulArcs(model, part.remarks);
+    warnOfExtremeWeights(model, part.remarks);
     for (Diagnostic& remark : part.remarks)
       remark.place.file = file;
     return std::make_unique<CadSolid>(std::move(model), std::move(part.remarks));

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "simulation/ball_on_face.hpp"
 #include "simulation/cad_contact.hpp"
 #include "simulation/surface_steps.hpp"
 
@@ -31,30 +32,16 @@ Vector2 parameterExtent(const CadElement& t) {
   return high - low;
 }
 
-/// A limit for steps where the surface itself is the limit.
-const Vector2 kAnywhere(1e6, 1e6);
-
 /// One search for the contact of a ball with a free-form face.
 class FaceSearch {
 public:
   FaceSearch(const CadFace& face, const Way& way, double radius, Meeting& best)
-      : face_(face), surface_(**face.freeform), way_(way), radius_(radius), best_(best) {}
+      : surface_(**face.freeform), way_(way), radius_(radius), best_(best), ball_(face, way, radius, best) {}
 
   /// Looks near one triangle; `coarse` is the meeting with the grown triangle. False if it cannot tell.
   bool near(FaceQuestion& question, const Meeting& coarse) { return settles(question, coarse) || best_.when < 0; }
 
 private:
-  void meet(double when, const Vector2& at) {
-    const SurfacePoint s = surface_.at(at);
-    const Vector3 normal = s.u.cross(s.v);
-    keep(best_, when, s.point,
-         normal.norm() > 0 ? Vector3(normal.normalized() * (face_.reversed ? -1 : 1)) : Vector3::Zero());
-  }
-
-  double gapAt(double when, const Vector2& at) const {
-    return (way_.at(when) - surface_.at(at).point).norm() - radius_;
-  }
-
   /// True if what happens near the triangle is known: a contact, which goes into the best, or none.
   bool settles(FaceQuestion& question, const Meeting& coarse) {
     const CadElement& triangle = question.triangle;
@@ -64,16 +51,7 @@ private:
       return (at - low + 1.5 * extent).minCoeff() >= 0 && (low + 2 * extent - at).minCoeff() >= 0;
     };
     Vector2 at = parametersOf(triangle, coarse.point);
-    if (coarse.when < 0) {
-      Vector2 nearest = at;
-      if (projectOntoSurface(surface_, way_.start, extent, nearest)) {
-        const double gap = gapAt(0, nearest);
-        if (gap < -kTouchTolerance && gap < best_.when && face_.domain.contains(nearest)) {
-          meet(gap, nearest);
-          return true;
-        }
-      }
-    }
+    if (coarse.when < 0 && ball_.meetsAtStart(at, extent)) return true;
     // The grown triangle is met a little early; the triangle itself, where it is met at all, gives the better start.
     Meeting middle;
     sweepTriangle(way_, radius_, triangle.corners, middle);
@@ -83,20 +61,20 @@ private:
     const auto approaches = [&] { return (way_.at(when) - surface_.at(at).point).dot(way_.direction) < 0; };
     const bool solved = solveSurfaceTouch(surface_, way_, radius_, extent, nullptr, at, when) && approaches();
     if (solved) question.isSolved = true, question.at = at, question.when = when;
-    if (solved && isNear(at)) return accept(when, at);
+    if (solved && isNear(at)) return ball_.accept(when, at);
     // A contact elsewhere counts, too, but this place is still open.
-    if (solved) accept(when, at);
+    if (solved) ball_.accept(when, at);
     // Walk up to the surface: slower, but never past the first contact.
     at = seed;
     when = std::max(0.0, coarse.when);
     for (int i = 0; i < 50; ++i) {
       if (!projectOntoSurface(surface_, way_.at(when), extent, at) || !isNear(at)) return false;
-      const double gap = gapAt(when, at);
+      const double gap = ball_.gapAt(when, at);
       if (gap < -1e-6) return false;
       if (std::abs(gap) < 1e-9) {
         if (!approaches()) return true;
         question.isSolved = true, question.at = at, question.when = when;
-        return accept(when, at);
+        return ball_.accept(when, at);
       }
       when += gap;
       if (when > way_.length || when >= best_.when) return true;
@@ -104,25 +82,11 @@ private:
     return false;
   }
 
-  /// Takes a touch of the whole surface as a contact if the face is there and the ball goes on into it. False if it is
-  /// no touch.
-  bool accept(double when, const Vector2& at) {
-    if (when < -1e-7 || when > way_.length || when >= best_.when || !face_.domain.contains(at)) return true;
-    if (std::abs(gapAt(when, at)) > 1e-7) return false;
-    // A ball that touches at the start within the tolerance and would graze only has nothing to meet.
-    Vector2 later = at;
-    const double end = std::min(way_.length, std::max(when, 0.0) + 1e-3 * radius_);
-    if (projectOntoSurface(surface_, way_.at(end), kAnywhere, later) && gapAt(end, later) >= -kTouchTolerance)
-      return true;
-    meet(std::max(0.0, when), at);
-    return true;
-  }
-
-  const CadFace& face_;
   const FreeformSurface& surface_;
   const Way& way_;
   double radius_;
   Meeting& best_;
+  BallOnFace ball_;
 };
 
 }  // namespace

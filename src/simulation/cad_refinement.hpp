@@ -59,6 +59,7 @@ struct ForBall {
   double limit = 0;   ///< mm, between triangles and face
   double beside = 0;  ///< mm: no part is grown by less
   double apart = 0;   ///< mm, between the corners and where their parameters are
+  int mostHalvings = kMostHalvings;
 };
 
 template <class IsNear, class Visit, class Doubt>
@@ -71,7 +72,7 @@ void visitPartsForBall(CadElement& element, const ForBall& how, int halvings, bo
     isCovered = true;
   }
   if (!isNear(element)) return;
-  if (sampled <= how.limit || halvings == kMostHalvings) return visit(element, isCovered);
+  if (sampled <= how.limit || halvings >= how.mostHalvings) return visit(element, isCovered);
   forQuarters(element, how.face,
               [&](CadElement& part) { visitPartsForBall(part, how, halvings + 1, isCovered, isNear, visit, doubt); });
 }
@@ -98,8 +99,9 @@ void visitFinely(const CadModel& model, const CadElement& element, const IsNear&
 /// the face by so little that a search for the contact of a ball with the exact surface may begin there. `isNear(part)`
 /// rules out parts; the element itself is near. Where it is not certain that this rules out nothing that counts,
 /// `doubt(part)` is called with what has to be looked at as a whole; what is found in it later is covered by that.
+/// Not `finely` if there were too many parts already: then only the element's quarters are visited.
 template <class IsNear, class Visit, class Doubt>
-void visitForBall(const CadModel& model, const CadElement& element, double radius, const IsNear& isNear,
+void visitForBall(const CadModel& model, const CadElement& element, double radius, bool finely, const IsNear& isNear,
                   const Visit& visit, const Doubt& doubt) {
   // A triangle that is coarse for the ball may hold several touches, and the search finds one of them.
   constexpr double kEnough = 30;  // deflections
@@ -107,7 +109,8 @@ void visitForBall(const CadModel& model, const CadElement& element, double radiu
   const double limit = std::min(kEnough * model.deflection, kShare * radius);
   if (element.growth <= kDeviationSafety * limit) return visit(element, false);
   const CadFace& face = model.faces[element.owner];
-  const detail::ForBall how{face, limit, growthBesideBorders(model.deflection), cornersApart(element, face)};
+  const detail::ForBall how{face, limit, growthBesideBorders(model.deflection), cornersApart(element, face),
+                            finely ? detail::kMostHalvings : 1};
   detail::forQuarters(element, face,
                       [&](CadElement& part) { detail::visitPartsForBall(part, how, 1, false, isNear, visit, doubt); });
 }

@@ -5,6 +5,7 @@
 #include <Geom_BezierSurface.hxx>
 #include <Geom_SurfaceOfLinearExtrusion.hxx>
 #include <Geom_SurfaceOfRevolution.hxx>
+#include <TColStd_Array2OfReal.hxx>
 #include <algorithm>
 #include <cmath>
 #include <gp_Pnt.hxx>
@@ -227,6 +228,21 @@ std::unique_ptr<const FreeformSurface> freeformSurface(const Handle(Geom_Surface
   }
   constexpr int kCells = 16;
   return std::make_unique<Sampled>(surface, low, high, kCells);
+}
+
+double weightRatio(const Handle(Geom_Surface) & surface) {
+  const TColStd_Array2OfReal* weights = nullptr;
+  if (const auto spline = Handle(Geom_BSplineSurface)::DownCast(surface)) weights = spline->Weights();
+  if (const auto bezier = Handle(Geom_BezierSurface)::DownCast(surface)) weights = bezier->Weights();
+  if (weights == nullptr) return 1;
+  double least = weights->Value(weights->LowerRow(), weights->LowerCol()), most = least;
+  for (int i = weights->LowerRow(); i <= weights->UpperRow(); ++i) {
+    for (int j = weights->LowerCol(); j <= weights->UpperCol(); ++j) {
+      least = std::min(least, weights->Value(i, j));
+      most = std::max(most, weights->Value(i, j));
+    }
+  }
+  return most / least;
 }
 
 }  // namespace probewright::simulation

@@ -68,4 +68,7 @@ public:
 std::unique_ptr<const FreeformSurface> freeformSurface(const Handle(Geom_Surface) & surface, const Vector2& low,
                                                        const Vector2& high);
 
+/// The largest weight of a spline's poles divided by the smallest; 1 of surfaces that have none.
+double weightRatio(const Handle(Geom_Surface) & surface);
+
 }  // namespace probewright::simulation

@@ -10,6 +10,8 @@
 #include <TopoDS_Face.hxx>
 #include <algorithm>
 #include <cmath>
+#include <ctime>
+#include <numbers>
 #include <numeric>
 
 #include "oracle.hpp"
@@ -238,6 +240,56 @@ TEST(BentFaces, AreMetByTheSmallestBallsWhereADenseSearchMeetsThem) {
     }
   }
   EXPECT_GT(met, 15 * faces);
+}
+
+/// A cylinder of radius 10 and height 20 as a spline, one pole of its upper end with a weight of many millions.
+Handle(Geom_BSplineSurface) cylinderWithAWeight(double weight) {
+  constexpr double kRadius = 10, kHeight = 20;
+  TColgp_Array2OfPnt poles(1, 2, 1, 9);
+  TColStd_Array2OfReal weights(1, 2, 1, 9);
+  for (int j = 0; j < 9; ++j) {
+    const double turn = j * std::numbers::pi / 4, out = kRadius * (j % 2 == 0 ? 1 : std::numbers::sqrt2);
+    for (int i = 0; i < 2; ++i) {
+      poles(i + 1, j + 1) = gp_Pnt(out * std::cos(turn), out * std::sin(turn), i * kHeight);
+      weights(i + 1, j + 1) = j % 2 == 0 ? 1 : std::numbers::sqrt2 / 2;
+    }
+  }
+  weights(2, 2) = weight;
+  TColStd_Array1OfReal ends(1, 2), quarters(1, 5);
+  TColStd_Array1OfInteger twice(1, 2), multiplicities(1, 5);
+  ends(1) = 0, ends(2) = 1;
+  twice.Init(2);
+  multiplicities.Init(2);
+  multiplicities(1) = multiplicities(5) = 3;
+  for (int i = 1; i <= 5; ++i)
+    quarters(i) = (i - 1) / 4.0;
+  return new Geom_BSplineSurface(poles, weights, ends, quarters, twice, multiplicities, 1, 2);
+}
+
+/// The heavy pole draws the upper end of its quarter to itself, and no proof of what a ball meets there comes to an
+/// end.
+TEST(BentFaces, WithWeightsOfMillionsEndEachQueryAndAreNamed) {
+  const ScratchFolder folder;
+  for (const double weight : {900.0, 81'186'548.0}) {
+    const std::filesystem::path file = folder / "weight.stp";
+    ASSERT_TRUE(writeStep(BRepBuilderAPI_MakeFace(cylinderWithAWeight(weight), 1e-7).Face(), file));
+    const auto solid = readStep(file);
+    ASSERT_TRUE(solid) << format(solid.error());
+    std::string remarks;
+    for (const Diagnostic& remark : dynamic_cast<const CadSolid&>(**solid).remarks())
+      remarks += format(remark) + "\n";
+    EXPECT_EQ(remarks.find("1 of 1 faces differ by more than 10000 times") != std::string::npos, weight > 1000)
+        << remarks;
+    const auto seconds = [] { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; };
+    const double begin = seconds();
+    const Vector3 out = Vector3(1, 1, 0).normalized(), up(0, 0, 10);
+    const auto bent = (*solid)->firstContact(40 * out + up, 5 * out + up, 2);
+    EXPECT_LT(seconds() - begin, 15);
+    EXPECT_TRUE(bent || weight > 1000);
+    const auto round = (*solid)->firstContact(-40 * out + up, -5 * out + up, 2);
+    ASSERT_TRUE(round);
+    EXPECT_NEAR(round->ballCentre.dot(out), -12, 1e-6);
+  }
 }
 
 }  // namespace
