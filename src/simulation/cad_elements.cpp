@@ -59,7 +59,12 @@ double areaInParameters(const CadElement& element) {
   return std::abs(a.x() * b.y() - a.y() * b.x()) / 2;
 }
 
-using Corner = BorderSides::Point;
+/// A corner of a triangle.
+struct Corner {
+  Vector3 point;
+  Vector2 parameters;
+  double apart = 0;  ///< mm: how far the point lies from where its parameters are on the surface of a free-form face
+};
 
 /// A side of a triangle.
 struct Side {
@@ -68,14 +73,14 @@ struct Side {
 };
 
 /// A triangle, halved along those of its sides that are parts of bent edges until they are near enough: side k runs
-/// from corner k to the next.
-template <class Add>
-void addParts(const std::array<Corner, 3>& corners, const std::array<Side, 3>& sides, const BorderSides& borders,
-              double deviation, int halvings, const Add& add) {
+/// from corner k to the next. `middleOf(side)` is a corner in the middle of such a part, if it is not near enough.
+template <class MiddleOf, class Add>
+void addParts(const std::array<Corner, 3>& corners, const std::array<Side, 3>& sides, const MiddleOf& middleOf,
+              int halvings, const Add& add) {
   constexpr int kMost = 6;
   std::array<std::optional<Corner>, 3> middles;
   for (std::size_t k = 0; k < 3 && halvings < kMost; ++k) {
-    if (sides[k].bent) middles[k] = borders.middle(*sides[k].bent, deviation);
+    if (sides[k].bent) middles[k] = middleOf(*sides[k].bent);
   }
   const auto count = std::ranges::count_if(middles, [](const auto& middle) { return middle.has_value(); });
   if (count == 0) return add(corners, {sides[0].isBorder, sides[1].isBorder, sides[2].isBorder});
@@ -86,7 +91,7 @@ void addParts(const std::array<Corner, 3>& corners, const std::array<Side, 3>& s
   const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
   const auto part = [&](const Corner& a, const Corner& b, const Corner& c, const Side& ab, const Side& bc,
                         const Side& ca) {
-    addParts({a, b, c}, {ab, bc, ca}, borders, deviation, halvings + 1, add);
+    addParts({a, b, c}, {ab, bc, ca}, middleOf, halvings + 1, add);
   };
   const auto first = [&](std::size_t side) { return Side{sides[side].bent->firstHalf(), sides[side].isBorder}; };
   const auto second = [&](std::size_t side) { return Side{sides[side].bent->secondHalf(), sides[side].isBorder}; };
@@ -137,6 +142,7 @@ double largestDeviation(const CadElement& element, const CadFace& face, double s
   return face.freeform ? certainDeviation(element, face, kDeviationSafety * sampled, apart, kMostSteps)
                        : kDeviationSafety * sampled;
 }
+
 double cornersOff(const CadElement& element, const CadFace& face) {
   return face.freeform ? cornersApart(element, face) : 0;
 }
@@ -195,10 +201,13 @@ constexpr int kMostHalvings = 12;
 template <class Keep>
 void addHalves(CadElement& element, const CadFace& face, double apart, double enough, int halvings, const Keep& keep) {
   const double sampled = deviationOf(element, face);
-  const double deviation = largestDeviation(element, face, sampled, apart);
   // Little is gained where only the bounds are coarse.
   constexpr int kForBounds = 4;
-  const int left = halvings - (sampled > enough ? 1 : kForBounds);
+  const bool isTooFar = sampled > enough;
+  const int left = halvings - (isTooFar ? 1 : kForBounds);
+  // What is halved in any case needs no bounds.
+  const double deviation =
+      isTooFar && left >= 0 ? kDeviationSafety * sampled : largestDeviation(element, face, sampled, apart);
   if (left < 0 || !(deviation > kDeviationSafety * enough)) return keep(element, deviation);
   std::array<Vector3, 3> middles;
   std::array<double, 3> lengths{}, offs{};
@@ -245,6 +254,14 @@ std::vector<CadElement> faceElements(const CadFace& exact, const TopoDS_Face& fa
     straight = curve.IsNull() || curve->IsKind(STANDARD_TYPE(Geom_Line));
   }
   const BorderSides borders(face, mesh, location);
+  const auto cornerAt = [&](const Vector3& point, const Vector2& parameters) {
+    const double apart = exact.freeform ? ((**exact.freeform).pointAt(parameters) - point).norm() : 0;
+    return Corner{point, parameters, apart};
+  };
+  const auto middleOf = [&](const BorderSides::Side& side) -> std::optional<Corner> {
+    const auto middle = borders.middle(side, deflection);
+    return middle ? std::optional(cornerAt(middle->point, middle->parameters)) : std::nullopt;
+  };
   const LooseSides onBorder(*mesh);
   const auto add = [&](const std::array<Corner, 3>& corners, const std::array<bool, 3>& isBorder) {
     CadElement element;
@@ -263,23 +280,27 @@ std::vector<CadElement> faceElements(const CadFace& exact, const TopoDS_Face& fa
     if (flat) return keep(element, kDeviationSafety * distanceFrom(exact.forms.sheets.front(), element));
     const int halvings = elements.size() < kMostMeshPoints ? kMostHalvings : 0;
     // A little more finely than the mesher: that costs less here than in each contact.
-    addHalves(element, exact, cornersOff(element, exact), kInteriorDeflections / 2 * deflection, halvings, keep);
+    const double apart = std::max({corners[0].apart, corners[1].apart, corners[2].apart});
+    addHalves(element, exact, apart, kInteriorDeflections / 2 * deflection, halvings, keep);
   };
+  std::vector<Corner> cornerOf;
+  for (int i = 1; i <= mesh->NbNodes(); ++i) {
+    const gp_Pnt2d uv = mesh->UVNode(i);
+    cornerOf.push_back(cornerAt(vector(mesh->Node(i).Transformed(transform)), {uv.X(), uv.Y()}));
+  }
   for (int i = 1; i <= mesh->NbTriangles(); ++i) {
     std::array<int, 3> nodes{};
     mesh->Triangle(i).Get(nodes[0], nodes[1], nodes[2]);
     if (exact.reversed) std::swap(nodes[1], nodes[2]);
     std::array<Corner, 3> corners;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const gp_Pnt2d uv = mesh->UVNode(nodes[k]);
-      corners[k] = {vector(mesh->Node(nodes[k]).Transformed(transform)), {uv.X(), uv.Y()}};
-    }
+    for (std::size_t k = 0; k < 3; ++k)
+      corners[k] = cornerOf[static_cast<std::size_t>(nodes[k] - 1)];
     std::array<Side, 3> sides;
     for (std::size_t k = 0; k < 3; ++k) {
       const int from = nodes[k], to = nodes[(k + 1) % 3];
       sides[k] = {borders.between(from, to), onBorder.contains(from, to)};
     }
-    addParts(corners, sides, borders, deflection, 0, add);
+    addParts(corners, sides, middleOf, 0, add);
   }
   // Triangles that leave a part of the face open would hide it.
   constexpr double kLeastCover = 0.9;
@@ -287,8 +308,7 @@ std::vector<CadElement> faceElements(const CadFace& exact, const TopoDS_Face& fa
   return elements;
 }
 
-void addEdgeElements(CadModel& model, std::uint32_t owner, double deflection) {
-  const CadEdge& edge = model.edges[owner];
+std::vector<CadElement> edgeElements(const CadEdge& edge, std::uint32_t owner, double deflection) {
   const FreeformCurve& curve = **edge.bounded;
   const auto at = [&](double t) { return curve.at(t).point; };
   const auto deviation = [&](double a, double b) { return curve.bends(a, b).fromChord(b - a); };
@@ -305,6 +325,7 @@ void addEdgeElements(CadModel& model, std::uint32_t owner, double deflection) {
     }
     from = to;
   }
+  std::vector<CadElement> elements;
   for (std::size_t i = 0; i + 1 < parameters.size(); ++i) {
     CadElement element;
     element.kind = CadElement::Kind::Edge;
@@ -313,8 +334,9 @@ void addEdgeElements(CadModel& model, std::uint32_t owner, double deflection) {
     element.parameters = {Vector2(parameters[i], 0), Vector2(parameters[i + 1], 0), Vector2(parameters[i + 1], 0)};
     element.growth =
         kLeastGrowth + (edge.kind == CadEdge::Kind::Line ? 0 : deviation(parameters[i], parameters[i + 1]));
-    model.elements.push_back(element);
+    elements.push_back(element);
   }
+  return elements;
 }
 
 }  // namespace probewright::simulation

@@ -13,7 +13,7 @@ namespace probewright::simulation {
 std::vector<CadElement> faceElements(const CadFace& exact, const TopoDS_Face& face, std::uint32_t owner,
                                      double deflection);
 
-/// Chords that leave the edge by at most `deflection`.
-void addEdgeElements(CadModel& model, std::uint32_t owner, double deflection);
+/// Chords that leave an edge by at most `deflection`.
+std::vector<CadElement> edgeElements(const CadEdge& edge, std::uint32_t owner, double deflection);
 
 }  // namespace probewright::simulation

@@ -5,6 +5,7 @@
 #include <BinTools.hxx>
 #include <GeomAdaptor_Curve.hxx>
 #include <GeomAdaptor_Surface.hxx>
+#include <Geom_BSplineCurve.hxx>
 #include <Geom_Circle.hxx>
 #include <Geom_Line.hxx>
 #include <Geom_OffsetSurface.hxx>
@@ -18,6 +19,9 @@
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <algorithm>
+#include <functional>
+#include <future>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 
@@ -32,8 +36,8 @@
 namespace probewright::simulation {
 namespace {
 
-constexpr double kFarthest = 1e9;          // mm
-constexpr std::size_t kWorthAThread = 20;  // faces
+constexpr double kFarthest = 1e9;         // mm
+constexpr std::size_t kWorthAThread = 4;  // faces or edges
 
 CadEdge cadEdge(const TopoDS_Edge& edge) {
   CadEdge exact;
@@ -82,6 +86,19 @@ void addRidges(CadModel& model, std::uint32_t owner) {
       ridge.kinkAt = at;
       model.edges.push_back(std::move(ridge));
     }
+  }
+}
+
+/// Gives the edges their curves with bounds. Those of a spline do not depend on where an edge begins and ends: what was
+/// cut out of one spline shares them.
+void addBounds(std::vector<CadEdge>& edges) {
+  std::map<const Geom_Curve*, std::shared_ptr<const LazyFreeformCurve>> splines;
+  for (CadEdge& edge : edges) {
+    const bool isSpline = edge.curve->IsKind(STANDARD_TYPE(Geom_BSplineCurve));
+    if (isSpline) edge.bounded = splines[edge.curve.get()];
+    if (edge.bounded) continue;
+    edge.bounded = std::make_shared<const LazyFreeformCurve>(edge.curve, edge.first, edge.last);
+    if (isSpline) splines[edge.curve.get()] = edge.bounded;
   }
 }
 
@@ -144,8 +161,7 @@ CadModel modelOf(const TopoDS_Shape& shape, double deflection, std::vector<Trimm
     CadEdge exact = cadEdge(edge);
     if (!exact.curve.IsNull()) model.edges.push_back(std::move(exact));
   }
-  for (CadEdge& edge : model.edges)
-    edge.bounded = std::make_shared<LazyFreeformCurve>(edge.curve, edge.first, edge.last);
+  addBounds(model.edges);
   if (model.faces.empty()) throw std::runtime_error("the shape has no face that can be touched");
   return model;
 }
@@ -191,14 +207,20 @@ void addElements(CadModel& model) {
   inParallel(ofFaces.size(), kWorthAThread, [&](std::size_t i) {
     ofFaces[i] = faceElements(model.faces[i], faces.faces[i], static_cast<std::uint32_t>(i), model.deflection);
   });
+  std::vector<std::vector<CadElement>> ofEdges(model.edges.size());
+  inParallel(ofEdges.size(), kWorthAThread, [&](std::size_t i) {
+    ofEdges[i] = edgeElements(model.edges[i], static_cast<std::uint32_t>(i), model.deflection);
+  });
   std::size_t count = 0;
-  for (const std::vector<CadElement>& elements : ofFaces)
-    count += elements.size();
-  model.elements.reserve(count + 10 * model.edges.size());
-  for (const std::vector<CadElement>& elements : ofFaces)
-    model.elements.insert(model.elements.end(), elements.begin(), elements.end());
-  for (std::size_t i = 0; i < model.edges.size(); ++i)
-    addEdgeElements(model, static_cast<std::uint32_t>(i), model.deflection);
+  for (const auto* const those : {&ofFaces, &ofEdges}) {
+    for (const std::vector<CadElement>& elements : *those)
+      count += elements.size();
+  }
+  model.elements.reserve(count);
+  for (const auto* const those : {&ofFaces, &ofEdges}) {
+    for (const std::vector<CadElement>& elements : *those)
+      model.elements.insert(model.elements.end(), elements.begin(), elements.end());
+  }
   for (const CadElement& element : model.elements) {
     if (!std::isfinite(element.growth))
       throw std::runtime_error("a face or edge has points whose coordinates are not numbers");
@@ -206,12 +228,13 @@ void addElements(CadModel& model) {
       if (!(corner.cwiseAbs().maxCoeff() <= kFarthest)) throw std::runtime_error("it reaches further than 1000 km");
     }
   }
-  model.bounds = boundsOf(model);
+  std::future<Bounds> bounds = std::async(std::launch::async, boundsOf, std::cref(model));
   std::vector<SearchElement> search;
   search.reserve(model.elements.size());
   for (const CadElement& element : model.elements)
     search.push_back({element.corners, element.growth});
   model.tree = SearchTree(search, Elements::NearTriangles);
+  model.bounds = bounds.get();
   std::vector<CadElement> ordered;
   ordered.reserve(model.elements.size());
   for (const std::uint32_t i : model.tree.order())

@@ -1,6 +1,7 @@
 #include "simulation/child_process.hpp"
 
 #include <fcntl.h>
+#include <malloc.h>
 #include <poll.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -19,6 +20,7 @@
 #include <ctime>
 #include <exception>
 #include <fstream>
+#include <limits>
 #include <new>
 
 #if defined(__has_feature)
@@ -67,6 +69,14 @@ void limitMemory(std::uint64_t bytes) {
 #endif
 }
 
+/// What is freed stays with the process, for what it asks for next: a new page costs more than what is written to it.
+void keepFreedMemory() {
+#ifdef M_TRIM_THRESHOLD
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // bytes; the most that the library takes
+#endif
+}
+
 /// Everything that a child does before its work.
 void settleIn(pid_t parent, const ChildLimits& limits) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -76,6 +86,7 @@ void settleIn(pid_t parent, const ChildLimits& limits) {
   const rlimit noCore{0, 0};
   setrlimit(RLIMIT_CORE, &noCore);
   limitMemory(limits.bytes);
+  keepFreedMemory();
   const int nowhere = open("/dev/null", O_RDWR);
   if (nowhere < 0) return;
   dup2(nowhere, STDIN_FILENO);
