@@ -23,7 +23,6 @@ constexpr int rotationIndex = 6;        ///< of the preset table, FN 18 ID507
 
 std::optional<ToKlartext::SafeArea> ToKlartext::safeArea(const Call& call, const MeasuringTask& task) const {
   const Quantity limit = call.number("S_TSA"), path = call.number("S_FA");
-  if (limit == 0) return std::nullopt;
   SafeArea safe;
   safe.limit = limit;
   const bool zeroOffset = call.digit("S_MVAR", 3) == 1;

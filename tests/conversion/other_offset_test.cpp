@@ -93,7 +93,7 @@ TEST_P(OtherOffset, GetsWhatTheOriginalGivesIt) {
   for (const int offset : {10002, 2}) {
     for (const double turned : {0.0, 25.0, -70.0}) {
       // What the feature deviates is within the safe area, or not: the distance of the two offsets is no deviation.
-      for (const double safe : {task.safe, 0.005}) {
+      for (const double safe : {task.safe, 0.005, 0.0}) {
         PlantedPart part = world(dice, turned);
         if (hole)
           layRound(part, true, 40);

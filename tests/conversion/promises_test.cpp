@@ -270,6 +270,25 @@ TEST(ConvertPromises, MonitorsTheSafeArea) {
   }
 }
 
+/// 0 or left out, the smallest deviation is too large.
+TEST(ConvertPromises, StopsAtAnyDeviationWithoutASafeArea) {
+  const PlantedPart part = blockWithHole(40.02, {0.05, 0, 0});
+  for (const Named& safe : {Named{{"S_TSA", 0}}, Named{}}) {
+    for (const Named& task : {Named{{"S_MVAR", 1}}, Named{{"S_MVAR", 101}, {"S_KNUM", 10001}}}) {
+      Named words = {{"S_PRNUM", 1}, {"S_SETV", 40}, {"S_FA", 4}, {"S_NMSP", 1}};
+      words.insert(words.end(), safe.begin(), safe.end());
+      words.insert(words.end(), task.begin(), task.end());
+      const Twin original =
+          runSinumerik(sinumerikProgram("G0 X0 Y0\nG0 Z-10\n" + sinumerikCall("CYCLE977", words) + "G0 Z50\n"), part);
+      const Twin there = runConverted(original, part);
+      EXPECT_TRUE(there.lost.empty()) << format(there.lost.front());
+      EXPECT_THAT(original.why, HasSubstr("Safe area exceeded"));
+      EXPECT_THAT(there.why, HasSubstr("FN 14")) << there.text;
+      EXPECT_TRUE(sameOrigin(original, there));
+    }
+  }
+}
+
 TEST(ConvertPromises, JudgesByLimitsThatNobodyReads) {
   for (const double size : {40.05, 40.005, 39.9}) {
     const PlantedPart part = blockWithHole(size);
