@@ -57,12 +57,32 @@ std::optional<Meaning> differenceOf(const control::Characteristic& of) {
   }
 }
 
+std::optional<Meaning> setOf(const control::Characteristic& of) {
+  const std::optional<Meaning> actual = actualOf(of);
+  if (!actual) return std::nullopt;
+  switch (*actual) {
+    case Meaning::Centre1:
+      return Meaning::Centre1Set;
+    case Meaning::Centre2:
+      return Meaning::Centre2Set;
+    case Meaning::Size1:
+      return Meaning::Size1Set;
+    case Meaning::Size2:
+      return Meaning::Size2Set;
+    case Meaning::Coordinate:
+      return Meaning::CoordinateSet;
+    default:
+      return std::nullopt;
+  }
+}
+
 }  // namespace
 
 std::optional<Meaning> meaningOf(const control::ResultKind& kind) {
   if (kind.of.system != control::System::Workpiece || kind.of.item != 0) return std::nullopt;
   if (kind.role == Role::Actual) return actualOf(kind.of);
   if (kind.role == Role::Difference) return differenceOf(kind.of);
+  if (kind.role == Role::Set) return setOf(kind.of);
   return std::nullopt;
 }
 

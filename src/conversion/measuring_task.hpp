@@ -68,6 +68,11 @@ enum class Meaning {
   Size2Deviation,
   CoordinateDeviation,
   AngleDeviation,
+  Centre1Set,  ///< what the call expects
+  Centre2Set,
+  Size1Set,
+  Size2Set,
+  CoordinateSet,
 };
 
 /// A deviation that stands for no limit on this side.

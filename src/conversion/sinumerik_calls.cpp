@@ -13,6 +13,7 @@ namespace probewright::conversion {
 namespace {
 
 constexpr double leastSafeAngle = 5, mostSafeAngle = 45;  ///< degrees that an edge or a plane may be off
+constexpr double largestCommonBall = 6;                   ///< diameter, mm
 
 /// S_MVAR of CYCLE977, units.
 int units977(Feature feature) {
@@ -71,6 +72,7 @@ public:
         cycle976();
         break;
     }
+    requirePath();
     return std::move(passage_);
   }
 
@@ -94,12 +96,27 @@ private:
     return std::clamp(angle, leastSafeAngle, mostSafeAngle);
   }
 
-  /// CYCLE977 and CYCLE979 refuse a set value of 0; touch probe cycles take it.
-  void requireSizes() const {
+  /// CYCLE977 and CYCLE979 refuse a set value of 0; touch probe cycles take it. Between walls that lie no farther
+  /// apart than the ball's diameter there is no measuring path; touch probe cycles begin in the middle then.
+  void requireSizes() {
     const std::size_t sizes = isRectangular(task_.feature) ? 2 : 1;
+    double least = largestCommonBall * task_.millimetre + 1;
     for (std::size_t i = 0; i < sizes; ++i)
-      if (task_.size[i].isNumber() && task_.size[i].number() <= 0)
-        throw NotCarriedOver("the nominal size is 0, which no SINUMERIK cycle takes", "write the nominal size there");
+      if (task_.size[i].isNumber()) least = std::min(least, task_.size[i].number());
+    if (least <= 0)
+      throw NotCarriedOver("the nominal size is 0, which no SINUMERIK cycle takes", "write the nominal size there");
+    if (isInside(task_.feature) && least <= largestCommonBall * task_.millimetre) {
+      losses_.push_back(fmt::format(
+          "a ball may be as large as the nominal size of {}: the SINUMERIK stops there, a touch probe cycle measures",
+          numberText(least)));
+    }
+  }
+  /// Touch probe cycles begin at the expected surface where SET_UP and Q320 are 0.
+  void requirePath() const {
+    const Quantity path = passage_.call.number("S_FA");
+    if (!path.isNumber() || path.number() > 0) return;
+    throw NotCarriedOver("Q320 and SET_UP add up to 0, and no SINUMERIK cycle takes a measuring path (S_FA) of 0",
+                         "program a set-up clearance Q320, or tell by --set-up what SET_UP is");
   }
 
   void set(const std::string& name, const Quantity& value) { passage_.call.numbers[name] = value; }

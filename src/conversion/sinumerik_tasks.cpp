@@ -96,6 +96,12 @@ private:
           "S_FA: the touch begins SET_UP of the touch probe table in front of the surface; {} is taken for it",
           numberText(leastPath)));
     }
+    // CYCLE978 and CYCLE998 take the empirical value off what corrects a zero offset, too.
+    const bool empirical =
+        task.tool || (task.correction != Correction::None &&
+                      (feature == Feature::Surface || feature == Feature::Edge || feature == Feature::Plane));
+    if (empirical && !(number("S_EVNUM") == 0))
+      losses_.push_back("S_EVNUM: neither empirical nor mean values are kept");
     if (number("S_NMSP").number() > 1) losses_.push_back("S_NMSP: each point is measured once");
     return task;
   }
@@ -138,7 +144,6 @@ private:
       losses_.push_back("S_KNUM1: tool tables have no additive and setup offsets, none is corrected");
     } else {
       if (memory == 4) losses_.push_back("S_KNUM1: the wear (DR, DL) is corrected instead of the geometry");
-      if (!(number("S_EVNUM") == 0)) losses_.push_back("S_EVNUM: neither empirical nor mean values are kept");
       task.tool = {.tool = tool, .least = number("S_TZL"), .most = number("S_TDIF")};
     }
   }

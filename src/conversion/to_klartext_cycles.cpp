@@ -72,6 +72,16 @@ std::optional<Quantity> ToKlartext::measured(const MeasuringTask& task, const Re
       if (!angle) return std::nullopt;
       return Quantity::of(*angle) - sinumerikEdgeAngle(task, task.angle);
     }
+    case Meaning::Centre1Set:
+      return task.place[0];
+    case Meaning::Centre2Set:
+      return task.place[1];
+    case Meaning::Size1Set:
+      return task.size[0];
+    case Meaning::Size2Set:
+      return task.size[1];
+    case Meaning::CoordinateSet:
+      return task.place[static_cast<std::size_t>(task.axis)];
     default:
       return std::nullopt;
   }
@@ -87,6 +97,7 @@ void ToKlartext::copyResults(const Block& block, const Results& left, const Meas
   const Results results = sinumerikResults(task);
   std::vector<std::pair<Meaning, std::string>> wanted(results.begin(), results.end());
   if (task.feature == Feature::Surface) {  // the same once more, by axis
+    wanted.emplace_back(Meaning::CoordinateSet, fmt::format("_OVR[{}]", 1 + task.axis));
     wanted.emplace_back(Meaning::Coordinate, fmt::format("_OVR[{}]", 5 + task.axis));
     wanted.emplace_back(Meaning::CoordinateDeviation, fmt::format("_OVR[{}]", 17 + task.axis));
   }

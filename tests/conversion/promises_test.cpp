@@ -328,6 +328,22 @@ TEST(ConvertPromises, JudgesByLimitsThatNobodyReads) {
   EXPECT_THAT(there.text, HasSubstr("SETAL(67000"));
 }
 
+/// CYCLE978 and CYCLE998 take the empirical value off what corrects a zero offset.
+TEST(ConvertPromises, NamesEmpiricalValues) {
+  for (const int variant : {0, 100}) {
+    const conversion::Conversion there =
+        toKlartext(sinumerikProgram("G0 X-10 Y0\nG0 Z-5\n" + sinumerikCall("CYCLE978", {{"S_MVAR", variant},
+                                                                                        {"S_KNUM", 10001},
+                                                                                        {"S_SETV", 0},
+                                                                                        {"S_FA", 4},
+                                                                                        {"S_TSA", 8},
+                                                                                        {"S_MA", 1},
+                                                                                        {"S_MD", 1},
+                                                                                        {"S_EVNUM", 3}})));
+    EXPECT_EQ(lists(there, "S_EVNUM"), variant == 100) << there.text;
+  }
+}
+
 TEST(ConvertPromises, MeasuresSmallHolesFromTheirMiddle) {
   const PlantedPart part = blockWithHole(8.03, {0.3, 0.2, 0});
   const Twin original = runKlartext(klartextProgram(inspectHole(8, 0, 0) + "L X+Q151 Y+Q152 R0 FMAX\n"), part);

@@ -202,6 +202,38 @@ TEST(ConvertReach, SinumerikCyclesFindWhatTheTouchProbeFinds) {
   }
 }
 
+/// A touch probe cycle begins in the middle where the walls leave no room in front of them, and at the surface where
+/// SET_UP and Q320 are 0; a measuring path of a SINUMERIK is longer than 0.
+TEST(ConvertReach, ListsMeasuringPathsThatMayBeNothing) {
+  const auto ofHole = [](double diameter) {
+    return with(common(1, -8), {{273, 0},
+                                {274, 0},
+                                {262, diameter},
+                                {325, 0},
+                                {247, 90},
+                                {301, 0},
+                                {275, 0},
+                                {276, 0},
+                                {279, 0},
+                                {280, 0},
+                                {423, 4},
+                                {365, 1}});
+  };
+  for (const double diameter : {3.0, 4.0, 6.0, 6.5}) {
+    // A hole of 7.5 mm that the program takes for a smaller one, and a ball of 4 mm.
+    const PlantedPart part = worldOf(features[0], -16.25, 10);
+    const Twin original = runKlartext(klartextProgram(probe(421, ofHole(diameter))), part);
+    ASSERT_TRUE(original.finished) << original.why;
+    const conversion::Conversion there = toSinumerik(original.text);
+    EXPECT_EQ(lists(there, "a ball may be as large"), diameter <= 6) << diameter;
+    EXPECT_EQ(run(there.text, ProgramLanguage::Sinumerik, part).finished, diameter > 4) << diameter;
+  }
+  const std::string side = klartextProgram(surface(1, 0));
+  const conversion::Conversion there =
+      converted(side, ProgramLanguage::Klartext, ControlKind::TNC640, {.setUp = 0, .travel = 10});
+  EXPECT_TRUE(lists(there, "measuring path (S_FA) of 0")) << there.text;
+}
+
 TEST(ConvertReach, TouchProbeFindsWhatSinumerikCyclesFind) {
   for (const Feature& feature : features) {
     if (!feature.sinumerik) continue;

@@ -90,6 +90,29 @@ INSTANTIATE_TEST_SUITE_P(Convert, AnyWorldOfSinumerik,
                            return std::get<Case>(test.param).name + std::get<Setting>(test.param).name;
                          });
 
+/// What a cycle was called with stands in its results, too: sizes, centres, coordinates.
+TEST(ConvertSetValues, AreThoseOfTheCall) {
+  for (const Case& each : cases()) {
+    const bool surface = each.name.starts_with("Cycle978");
+    if (!surface && !each.name.starts_with("Cycle977") && !each.name.starts_with("Cycle979")) continue;
+    const std::vector<int> reads = surface ? std::vector<int>{0, each.name.back() - '0'} : std::vector<int>{0, 1, 2};
+    Dice dice(static_cast<unsigned>(std::hash<std::string>()(each.name)));
+    for (int world = 0; world < 20; ++world) {
+      SCOPED_TRACE(fmt::format("{} world {}", each.name, world));
+      PlantedPart part = plant(dice, ControlKind::TNC640, each.misplaced, each.skewed);
+      part.bench.preset(2, part.machineFromPreset.translation() + Vector3(3, 4, 5), 10, false);
+      part.bench.knows(5, "MILL", 80, 5);
+      const std::string blocks = each.blocks(dice, part);
+      const Twin original =
+          runSinumerik("G17 G90 G710\nT1\nM6 D1\nG54\nG0 Z120\n" + blocks + driveTo(reads) + "M30\n", part);
+      const Twin there = runConverted(original, part);
+      ASSERT_TRUE(ranWhole(original));
+      ASSERT_TRUE(ranWhole(there));
+      EXPECT_TRUE(sameEnd(original, there));
+    }
+  }
+}
+
 /// The text without straight moves, comments and the height that the probe goes to between points.
 std::string withoutMoves(const std::string& klartext) {
   std::string rest, line;
