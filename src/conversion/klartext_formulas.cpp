@@ -407,7 +407,8 @@ std::string KlartextFormulas::call(const Block& block, const Node& node) {
                          node.function == Function::Maximum ? '+' : '-',
                          node.function == Function::Maximum ? '-' : '+');
     case Function::Round:
-      return fmt::format("INT ({0} + SGN ({0}) * 0.5)", factorText(argument(0)));
+      // Halves go away from 0. A sum with 0.5 would round by itself, just below a half.
+      return fmt::format("(INT (2 * {0}) - INT {0})", factorText(argument(0)));
     case Function::Host:
       if (block.at(node.text) == "GETT") {
         const std::string tool = define("name of a tool", Holds::Text);

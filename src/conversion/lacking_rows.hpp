@@ -33,6 +33,8 @@ public:
   /// Rows 1 to `last` that the block writes and then it or a later one selects; each is told once. `row`: the one that
   /// is written, any of them if only the running program knows it. `there`: rows that the table has.
   std::vector<Row> writtenBy(const language::Block& block, const Quantity& row, const std::set<int>& there, int last);
+  /// True the first time that it is asked of a row that has not been told yet.
+  bool isNew(int row) { return told_.insert(row).second; }
 
 private:
   std::map<int, std::string> selectedAfter(const language::Block& block);

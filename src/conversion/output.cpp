@@ -13,8 +13,8 @@ void Output::list(const language::Block& block, std::string message, std::string
       {severity, {file_, block.position.line, 1}, std::move(message), std::string(line), std::move(advice), {}});
 }
 
-void Output::listOnce(const language::Block& block, const std::string& message, std::string advice) {
-  if (listedOnce_.insert(message).second) list(block, message, std::move(advice));
+void Output::listOnce(const language::Block& block, const std::string& message, std::string advice, Severity severity) {
+  if (listedOnce_.insert(message).second) list(block, message, std::move(advice), severity);
 }
 
 void Output::lose(const language::Block& block, const std::string& what) {

@@ -29,7 +29,8 @@ public:
   void list(const language::Block& block, std::string message, std::string advice = {},
             Severity severity = Severity::Warning);
   /// The same, where the message holds for every block of its kind: once a program.
-  void listOnce(const language::Block& block, const std::string& message, std::string advice = {});
+  void listOnce(const language::Block& block, const std::string& message, std::string advice = {},
+                Severity severity = Severity::Warning);
   /// Lists it and leaves it as a comment where it happened.
   void lose(const language::Block& block, const std::string& what);
   /// The block stays as a comment.

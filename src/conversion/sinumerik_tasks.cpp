@@ -31,6 +31,10 @@ public:
       : call_(call), start_(start), ballRadius_(ballRadius), losses_(losses) {}
 
   MeasuringTask task() {
+    if (!(number("S_PRNUM") == 0) && !(number("S_PRNUM") == 1))
+      losses_.push_back("S_PRNUM: a touch probe measures with the calibration data of its tool, which are one set");
+    if (const Quantity touches = number("S_NMSP"); !touches.isNumber() || touches.number() > 1)
+      losses_.push_back("S_NMSP: each point is measured once");
     if (call_.cycle == "CYCLE977") return cycle977();
     if (call_.cycle == "CYCLE978") return cycle978();
     if (call_.cycle == "CYCLE979") return cycle979();
@@ -102,7 +106,6 @@ private:
                       (feature == Feature::Surface || feature == Feature::Edge || feature == Feature::Plane));
     if (empirical && !(number("S_EVNUM") == 0))
       losses_.push_back("S_EVNUM: neither empirical nor mean values are kept");
-    if (number("S_NMSP").number() > 1) losses_.push_back("S_NMSP: each point is measured once");
     return task;
   }
 
@@ -364,7 +367,10 @@ private:
     MeasuringTask task;
     task.millimetre = call_.millimetre;
     task.path = number("S_FA");
-    switch (call_.digit("S_MVAR", 1)) {
+    const int body = call_.digit("S_MVAR", 1);
+    if (body != 0 && call_.digit("S_MVAR", 5) != 0)
+      losses_.push_back("S_MVAR: touch probe cycles calibrate the positional deviation of the ball, too");
+    switch (body) {
       case 0:
         if (call_.digit("S_MVAR", 7) != 1 || call_.integer("S_MA") != 3 || call_.integer("S_MD") != 1) {
           throw NotCarriedOver("this calibration has no twin on a HEIDENHAIN control");
@@ -374,6 +380,9 @@ private:
         break;
       case 1:
       case 2:
+        if (body == 1 && call_.digit("S_MVAR", 4) != 0)
+          throw NotCarriedOver("touch probe cycles calibrate in all directions of a ring",
+                               "calibrate with 0 in the thousands of S_MVAR");
         task.feature = Feature::ProbeInRing;
         break;
       case 3:

@@ -329,9 +329,7 @@ void ToKlartext::modal(const Block& block, const Modal& modal) {
     out_.list(block, "what moves above this block counts as the control begins, in an INCH program in inches",
               "select inches at the beginning of the program");
   }
-  static constexpr std::array<std::string_view, 11> silent = {"G60",    "G64", "G71",   "G710", "G70", "G700",
-                                                              "DIAMOF", "CFC", "CFTCP", "G9",   "G601"};
-  if (std::ranges::find(silent, name) != silent.end()) return;
+  if (unitOf(block, modal) != SelectedUnit::None || leavesOut(block, name)) return;
   if (name == "G90" || name == "G91") {
     incremental_ = name == "G91";
     incrementalDoubtful_ = false;
@@ -452,6 +450,7 @@ void ToKlartext::command(const Block& block, const Command& command) {
     }
     return line(fmt::format("FN 14: ERROR = {}", number >= 65000 ? number - 64000 : number));
   }
+  if (leavesOut(block, name)) return;
   if (name == "WORKPIECE") return blank(block, command);
   if (name == "MEAS") return measuringBlock(block, command);
   if (name == "STOPRE") return line("FN 20: WAIT FOR SYNC");

@@ -47,6 +47,9 @@ private:
   void toolCall(const language::Block& block, const language::ToolCall& call);
   void changeTool();
   void modal(const language::Block& block, const language::Modal& modal);
+  /// True if the word or cycle says how a path is travelled or shown, not where it leads: it is left out. A note says
+  /// so, once a word, where Klartext has words of its own for that.
+  bool leavesOut(const language::Block& block, std::string_view name);
   void machineFunction(const language::Block& block, const language::MachineFunction& function);
   void command(const language::Block& block, const language::Command& command);
   /// SPOS. `words`: the angle, then the number of the spindle if it stands there.
@@ -233,7 +236,7 @@ private:
     std::array<std::string, 7> values;  ///< parameters, by the index of FN 18 ID507
   };
   std::optional<SafeArea> safeArea(const Call& call, const MeasuringTask& task) const;
-  void rememberPreset(const MeasuringTask& task);
+  void rememberPreset(const language::Block& block, const MeasuringTask& task);
   /// Stops the program if a deviation is too large, with the preset as it was.
   void monitor(const language::Block& block, const SafeArea& safe, const MeasuringTask& task, const Results& results);
   /// The deviation of a centre along directions turned by `angle`.

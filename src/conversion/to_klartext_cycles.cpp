@@ -321,7 +321,7 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
   const std::optional<SafeArea> safe = safeArea(call, framed);
   before_ = {};
   const bool showsInPreset = safe && deviatesInActivePresetOnly(*safe, task);
-  if (safe && !showsInPreset) rememberPreset(task);
+  if (safe && !showsInPreset) rememberPreset(block, task);
   const bool measuresCorner = isCorner(task.feature) && task.correction == Correction::None;
   const bool measuresBefore = task.feature == Feature::Surface && task.correction != Correction::None &&
                               task.axis != 2 && !wantedAfter(block).empty();

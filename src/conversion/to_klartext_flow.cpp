@@ -263,6 +263,7 @@ void ToKlartext::call(const Block& block, const CallProgram& call) {
   if (block.at(call.name) == "CYCLE800") return swivel(block, call);
   if (call.name.length == 0) throw NotCarriedOver("a program whose name is computed has no twin in Klartext");
   const std::string name(block.at(call.name));
+  if (leavesOut(block, name)) return;
   if (language::sinumerik::isMeasuringCycle(name) || language::sinumerik::isSkippedCycle(name) ||
       language::sinumerik::isCycleWithoutEffect(name)) {
     throw NotCarriedOver(fmt::format("{} has no twin on a HEIDENHAIN control", name),

@@ -7,6 +7,7 @@
 #include "conversion/sinumerik_formulas.hpp"
 #include "conversion/to_klartext.hpp"
 #include "cycles/catalogue.hpp"
+#include "language/sinumerik/keywords.hpp"
 
 /// What SINUMERIK programs leave in effect from block to block, on every way through the program.
 namespace probewright::conversion {
@@ -35,7 +36,33 @@ bool mayLeaveElsewhere(const Block& block, const CallProgram& call) {
   return true;
 }
 
+/// Of a list of words, separated by blanks.
+bool isAmong(std::string_view names, std::string_view name) {
+  return fmt::format(" {} ", names).find(fmt::format(" {} ", name)) != std::string::npos;
+}
+
 }  // namespace
+
+bool ToKlartext::leavesOut(const Block& block, std::string_view name) {
+  if (isAmong("G60 G64 G9 G601 DIAMOF CFC CFTCP", name)) return true;
+  using language::sinumerik::Keyword;
+  const language::sinumerik::KeywordEntry* word = language::sinumerik::keywordEntry(name);
+  const bool ofDynamics =
+      word != nullptr && word->effect == language::sinumerik::Effect::Harmless &&
+      (word->keyword == Keyword::Modal || word->keyword == Keyword::Setting || word->keyword == Keyword::Axial);
+  if (!ofDynamics &&
+      !isAmong("G62 G602 G603 G641 G642 G643 G644 G645 BRISKA SOFTA DRIVEA JERKA FGROUP DISPLON DISPLOF SBLON SBLOF "
+               "ACTBLOCNO CYCLE832 CYCLE_HSC GROUP_BEGIN GROUP_END GROUP_ADDEND",
+               name)) {
+    return false;
+  }
+  out_.listOnce(block,
+                fmt::format("{} says how the path is travelled or the program shown, not where it leads: it is left "
+                            "out",
+                            name),
+                "say it by the words of the HEIDENHAIN control, if need be", Severity::Note);
+  return true;
+}
 
 std::optional<MeasuringTask::Log> ToKlartext::logOf(const Block& block, const CallProgram& call) {
   std::array<int, 2> codes{};  // S_PICT, S_PROT

@@ -67,7 +67,7 @@ std::optional<ToKlartext::SafeArea> ToKlartext::safeArea(const Call& call, const
   return safe.watched.empty() ? std::nullopt : std::optional(safe);
 }
 
-void ToKlartext::rememberPreset(const MeasuringTask& task) {
+void ToKlartext::rememberPreset(const Block& block, const MeasuringTask& task) {
   before_ = {};
   const bool changes = task.correction == Correction::Origin || task.correction == Correction::OriginAndRotation ||
                        task.correction == Correction::Rotation;
@@ -80,6 +80,14 @@ void ToKlartext::rememberPreset(const MeasuringTask& task) {
     present = Quantity::of(row);
     // Row 0 becomes a copy of the active one.
     if (task.active) before_.row = present;
+  } else if (const int row = static_cast<int>(task.row.number());
+             !task.active && !selectedRows_.contains(row) && lackingRows_.isNew(row)) {
+    out_.list(
+        block,
+        fmt::format("PRESET.PR may lack row {}, which is read before this cycle corrects it, to be put back beyond "
+                    "S_TSA: the HEIDENHAIN control then stops",
+                    row),
+        fmt::format("make sure that PRESET.PR has row {} before the program runs", row));
   }
   for (int index = 1; index <= rotationIndex; ++index) {
     if (index > 3 && index < rotationIndex) continue;

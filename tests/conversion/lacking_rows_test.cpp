@@ -39,9 +39,9 @@ std::vector<std::string> doubtsOf(const conversion::Conversion& there) {
 std::vector<std::string> doubts(const std::string& blocks) { return doubtsOf(toSinumerik(klartextProgram(blocks))); }
 
 /// CYCLE977 corrects X and Y of a zero offset.
-std::string correct(int offset) {
+std::string correct(int offset, double safe = 8) {
   return sinumerikCall("CYCLE977",
-                       {{"S_MVAR", 101}, {"S_KNUM", 10000 + offset}, {"S_SETV", 40}, {"S_FA", 4}, {"S_TSA", 8}}) +
+                       {{"S_MVAR", 101}, {"S_KNUM", 10000 + offset}, {"S_SETV", 40}, {"S_FA", 4}, {"S_TSA", safe}}) +
          "G0 X0 Y0 Z100\n";
 }
 
@@ -108,6 +108,26 @@ TEST(ConvertLackingRows, OfZeroOffsetsAreNotNamedWhereNothingCanBeLost) {
   }
   EXPECT_THAT(doubtsThere("G54\n$P_UIFR[2,X,TR]=25\n$P_UIFR[2,Z,RT]=3\n"), IsEmpty());
   EXPECT_THAT(doubtsThere("G55\nG54\n$P_UIFR[2,X,TR]=25\nG55\n"), IsEmpty());
+}
+
+/// What may have to be put back is read first, and a control stops where it reads a row that it lacks.
+TEST(ConvertLackingRows, ThatAreReadForTheSafeAreaAreNamed) {
+  const auto isRead = ElementsAre(HasSubstr("PRESET.PR may lack row 2, which is read before this cycle"));
+  EXPECT_THAT(doubtsThere("G54\n" + correct(2, 1)), isRead);
+  EXPECT_THAT(doubtsThere("G54\n" + correct(2, 1) + correct(2, 1)), isRead);  // once
+  EXPECT_THAT(doubtsThere("G55\nG54\n" + correct(2, 1)), IsEmpty());
+  EXPECT_THAT(doubtsThere("G54\n" + correct(1, 1)), IsEmpty());
+  for (const bool hasRow : {true, false}) {
+    PlantedPart part;
+    part.bench.preset(1, {0, 0, -300});
+    if (hasRow) part.bench.preset(2, {0, 0, -310}, 0, false);
+    part.bench.probeOf(100, 2);
+    part.bench.part(simulation::Ring(20, 60, -30), part.machineFromPart = pose({0, 0, -300}));
+    const Twin original =
+        runSinumerik("G17 G90 G710\nT1 M6 D1\nG54\nG0 Z100\nG0 X0 Y0\nG0 Z-10\n" + correct(2, 1) + "M30\n", part);
+    EXPECT_TRUE(original.finished) << original.why;
+    EXPECT_EQ(runConverted(original, part).finished, hasRow);
+  }
 }
 
 /// What is named: on the row that the control adds, the height of the preset in effect stands.

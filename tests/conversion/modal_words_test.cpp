@@ -37,6 +37,24 @@ TEST(ConvertModalWords, EndFeedsPerRevolution) {
   EXPECT_THAT(toKlartext(sinumerikProgram("G94 G1 X5 F500\n")).text, Not(HasSubstr("M137")));
 }
 
+/// Words of dynamics and of the display are left out, and a note says so; what stands beside them is kept.
+TEST(ConvertModalWords, LeaveOutHowPathsAreTravelled) {
+  for (const char* word : {"SOFT", "FFWON", "COMPCAD", "G641 ADIS=0.1", "G642", "G602", "CTOL=0.01", "ACC[X]=50",
+                           "FINEA[X]", "DYNFINISH", "SBLOF", "CYCLE832(0.01,1,1)", "GROUP_BEGIN(0,\"A\",0,0)"}) {
+    const std::string alone = fmt::format("{}\nG1 X50 F500\n", word);
+    EXPECT_TRUE(driveAlike(sinumerikProgram(alone), ProgramLanguage::Sinumerik)) << word;
+    const conversion::Conversion there = toKlartext(sinumerikProgram(alone + alone));
+    ASSERT_EQ(there.notCarriedOver.size(), std::string(word).starts_with("G641") ? 2U : 1U) << word;
+    EXPECT_EQ(there.notCarriedOver[0].severity, Severity::Note) << word;
+    EXPECT_THAT(there.notCarriedOver[0].message, HasSubstr("is left out")) << word;
+    EXPECT_THAT(there.text, Not(HasSubstr("NOT CARRIED OVER"))) << word;
+  }
+  EXPECT_TRUE(driveAlike(sinumerikProgram("SOFT G1 X50 F500\n"), ProgramLanguage::Sinumerik));
+  // What leads elsewhere, waits for other channels or belongs to the builder of the machine is listed.
+  for (const char* word : {"KONT", "G451", "WAITM", "CUST_CLAMP", "CDON"})
+    EXPECT_THAT(toKlartext(sinumerikProgram(fmt::format("{}\n", word))).text, HasSubstr("NOT CARRIED OVER")) << word;
+}
+
 /// The way is what differs: -45 degrees and +315.
 TEST(ConvertModalWords, TurnRotaryAxesTheShortestWay) {
   EXPECT_TRUE(driveAlike(sinumerikProgram("G1 C35 F3000\nC=DC(350)\nC=DC(20)\nG0 X5 C=DC(300)\nG1 C=IC(30)\n"),

@@ -239,56 +239,6 @@ TEST(ConvertPromises, PresetsKeepTheFramesOfTheOtherControl) {
   EXPECT_TRUE(sameEnd(klartext, sinumerik));
 }
 
-/// Beyond S_TSA nothing stays corrected, and both programs stop.
-TEST(ConvertPromises, MonitorsTheSafeArea) {
-  for (const int task : {1, 101}) {
-    for (const double off : {0.31, 0.05}) {
-      SCOPED_TRACE(fmt::format("{} {}", task, off));
-      const PlantedPart part = blockWithHole(40.02, {off, -off / 2, 0});
-      const double safe = task == 101 ? 0.2 : 0.01;  // of the centre, or of the diameter
-      const Twin original =
-          runSinumerik(sinumerikProgram("G0 X0 Y0\nG0 Z-10\n" +
-                                        sinumerikCall("CYCLE977", {{"S_MVAR", task},
-                                                                   {"S_KNUM", task == 101 ? 10001 : 0},
-                                                                   {"S_PRNUM", 1},
-                                                                   {"S_SETV", 40},
-                                                                   {"S_FA", 4},
-                                                                   {"S_TSA", safe},
-                                                                   {"S_NMSP", 1}}) +
-                                        "G0 Z50\nX7\n"),
-                       part);
-      const bool exceeded = task == 1 || off > safe;
-      const Twin there = runConverted(original, part);
-      EXPECT_TRUE(there.lost.empty()) << format(there.lost.front());
-      EXPECT_EQ(original.finished, !exceeded) << original.why;
-      EXPECT_EQ(there.finished, !exceeded) << there.why << there.text;
-      EXPECT_TRUE(sameOrigin(original, there));
-      if (exceeded) {
-        EXPECT_THAT(there.why, HasSubstr("FN 14"));
-      }
-    }
-  }
-}
-
-/// 0 or left out, the smallest deviation is too large.
-TEST(ConvertPromises, StopsAtAnyDeviationWithoutASafeArea) {
-  const PlantedPart part = blockWithHole(40.02, {0.05, 0, 0});
-  for (const Named& safe : {Named{{"S_TSA", 0}}, Named{}}) {
-    for (const Named& task : {Named{{"S_MVAR", 1}}, Named{{"S_MVAR", 101}, {"S_KNUM", 10001}}}) {
-      Named words = {{"S_PRNUM", 1}, {"S_SETV", 40}, {"S_FA", 4}, {"S_NMSP", 1}};
-      words.insert(words.end(), safe.begin(), safe.end());
-      words.insert(words.end(), task.begin(), task.end());
-      const Twin original =
-          runSinumerik(sinumerikProgram("G0 X0 Y0\nG0 Z-10\n" + sinumerikCall("CYCLE977", words) + "G0 Z50\n"), part);
-      const Twin there = runConverted(original, part);
-      EXPECT_TRUE(there.lost.empty()) << format(there.lost.front());
-      EXPECT_THAT(original.why, HasSubstr("Safe area exceeded"));
-      EXPECT_THAT(there.why, HasSubstr("FN 14")) << there.text;
-      EXPECT_TRUE(sameOrigin(original, there));
-    }
-  }
-}
-
 TEST(ConvertPromises, JudgesByLimitsThatNobodyReads) {
   for (const double size : {40.05, 40.005, 39.9}) {
     const PlantedPart part = blockWithHole(size);
@@ -326,22 +276,6 @@ TEST(ConvertPromises, JudgesByLimitsThatNobodyReads) {
   ASSERT_EQ(there.notCarriedOver.size(), 1U) << there.text;
   EXPECT_THAT(there.notCarriedOver[0].message, HasSubstr("limits"));
   EXPECT_THAT(there.text, HasSubstr("SETAL(67000"));
-}
-
-/// CYCLE978 and CYCLE998 take the empirical value off what corrects a zero offset.
-TEST(ConvertPromises, NamesEmpiricalValues) {
-  for (const int variant : {0, 100}) {
-    const conversion::Conversion there =
-        toKlartext(sinumerikProgram("G0 X-10 Y0\nG0 Z-5\n" + sinumerikCall("CYCLE978", {{"S_MVAR", variant},
-                                                                                        {"S_KNUM", 10001},
-                                                                                        {"S_SETV", 0},
-                                                                                        {"S_FA", 4},
-                                                                                        {"S_TSA", 8},
-                                                                                        {"S_MA", 1},
-                                                                                        {"S_MD", 1},
-                                                                                        {"S_EVNUM", 3}})));
-    EXPECT_EQ(lists(there, "S_EVNUM"), variant == 100) << there.text;
-  }
 }
 
 TEST(ConvertPromises, MeasuresSmallHolesFromTheirMiddle) {
@@ -385,7 +319,7 @@ TEST(ConvertPromises, NamesWhatItDrops) {
   ASSERT_EQ(shortest.notCarriedOver.size(), 1U);
   EXPECT_THAT(shortest.notCarriedOver[0].message, HasSubstr("M126"));
   EXPECT_THAT(shortest.text, HasSubstr("G0 X1\n"));
-  for (const char* call : {"CYCLE971()", "CYCLE982()", "CYCLE996()", "CYCLE116()", "CYCLE982", "CYCLE832()"}) {
+  for (const char* call : {"CYCLE971()", "CYCLE982()", "CYCLE996()", "CYCLE116()", "CYCLE982", "CUST_CLAMP()"}) {
     const conversion::Conversion there = toKlartext(sinumerikProgram(std::string(call) + "\n"));
     ASSERT_EQ(there.notCarriedOver.size(), 1U) << there.text;
     EXPECT_THAT(there.text, HasSubstr(fmt::format("; NOT CARRIED OVER: {}", call)));

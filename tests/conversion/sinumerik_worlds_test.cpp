@@ -58,7 +58,7 @@ TEST_P(AnyWorldOfSinumerik, MeasuresAndCorrectsTheSame) {
     part.bench.knows(5, "MILL", 80, 5);
     const std::string blocks = each.blocks(dice, part);
     SCOPED_TRACE(fmt::format("world {}", world));
-    std::string program = "G17 G90 G710\nT1\nM6 D1\nG54\nG0 Z120\n" + blocks + driveTo(reads) +
+    std::string program = "G17 G90 G710\nT1\nM6 D1\nG55\nG54\nG0 Z120\n" + blocks + driveTo(reads) +
                           (comparable ? "" : "G0 X0 Y0\n") + "M30\n";
     if (setting.inch) program = inInches(program);
     if (setting.toolAxis != 'Z') {
@@ -104,7 +104,7 @@ TEST(ConvertSetValues, AreThoseOfTheCall) {
       part.bench.knows(5, "MILL", 80, 5);
       const std::string blocks = each.blocks(dice, part);
       const Twin original =
-          runSinumerik("G17 G90 G710\nT1\nM6 D1\nG54\nG0 Z120\n" + blocks + driveTo(reads) + "M30\n", part);
+          runSinumerik("G17 G90 G710\nT1\nM6 D1\nG55\nG54\nG0 Z120\n" + blocks + driveTo(reads) + "M30\n", part);
       const Twin there = runConverted(original, part);
       ASSERT_TRUE(ranWhole(original));
       ASSERT_TRUE(ranWhole(there));

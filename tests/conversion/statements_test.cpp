@@ -247,6 +247,17 @@ TEST(ConvertMotion, KnowsTheStructuresOfSinumerik) {
       "R1=ATAN2(3,4)\nR2=ROUND(2.6)+TRUNC(3.7)+POT(2)\nGOTOF EE1\nR2=0\nEE1:\nG0 X=R1 Y=R2\n"));
 }
 
+/// ROUND to the nearest whole number, halves away from 0: also what lies next to a half.
+TEST(ConvertMotion, RoundsNextToHalves) {
+  for (const char* value :
+       {"0.49999999999999994", "0.5", "0.5000000000000001", "2.4999999999999996", "1.5", "0", "7", "123.5"}) {
+    for (const char* sign : {"", "-"}) {
+      EXPECT_TRUE(drivesTheSameFromSinumerik(fmt::format("R1={}{}\nR2=ROUND(R1)\nG0 X=R2/100+20\n", sign, value)))
+          << sign << value;
+    }
+  }
+}
+
 /// Whole circles, with a way of the tool axis or without one, and circles that name their end.
 TEST(ConvertMotion, DrivesWholeCircles) {
   for (const char* axes : {"", " Z-5"}) {
