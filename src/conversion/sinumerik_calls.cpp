@@ -237,6 +237,10 @@ private:
       start(2) = task_.clearance;
       set("S_ID", tip() - task_.clearance);
     }
+    const Quantity over = task_.clearance - task_.place[2];
+    if (!isInside(task_.feature) && over.isNumber() && over.number() <= 0)
+      losses_.push_back(
+          "Q260: CYCLE977 begins over the middle at this height, which is not above the measuring height");
     if (isRectangular(task_.feature)) {
       set("S_SETV0", task_.size[0]);
       set("S_SETV1", task_.size[1]);

@@ -265,7 +265,7 @@ private:
     lookFarther(task, known("S_ID"));
     task.angle = task.axis == 0 ? set + 90 : set;
     if (task.correction == Correction::Origin) {
-      const bool rotary = !(number("S_RA") == 0);
+      const bool rotary = call_.integer("S_RA") != 0;
       if (rotary && task.axis == 2) throw NotCarriedOver("S_RA: only the axis about the tool axis is corrected");
       task.correction = rotary ? Correction::RotaryAxis : Correction::Rotation;
     }

@@ -187,6 +187,8 @@ private:
   };
   /// Lists a block that a contour with radius compensation does not go on through as on a HEIDENHAIN control.
   void listCompensation(const language::Block& block);
+  /// Lists a path in which radius compensation begins, ends or goes on in another way than on a HEIDENHAIN control.
+  void listCompensatedPath(const language::Block& block, std::span<const language::Word> words);
   /// The next path, unless a label, a jump or a call comes before it in the text of the program.
   std::optional<NextPath> nextPath(const language::Block& block);
   /// D1 and the like stand in the block.
@@ -318,6 +320,8 @@ private:
   language::MoveKind motion_ = language::MoveKind::Rapid;
   bool incremental_ = false;
   std::string compensation_ = "R0";
+  std::string travelled_ = "R0";    ///< radius compensation of the last path
+  bool travelledAtRapid_ = false;   ///< the last path was at rapid traverse
   std::string pendingTool_, tool_;  ///< to be changed to, in the spindle
   bool measuredWithTool_ = false;   ///< a cycle has measured with the tool in the spindle
   std::optional<int> activeRow_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "conversion/sinumerik_formulas.hpp"
 #include "conversion/to_klartext.hpp"
@@ -73,6 +74,31 @@ void ToKlartext::listCompensation(const Block& block) {
       "radius compensation is in effect at this block, which ends or interrupts it in another way on a HEIDENHAIN "
       "control",
       "end it with G40 in a path before this block");
+}
+
+void ToKlartext::listCompensatedPath(const Block& block, std::span<const Word> words) {
+  const std::string before = std::exchange(travelled_, compensation_);
+  const bool rapid = motion_ == MoveKind::Rapid, changes = std::exchange(travelledAtRapid_, rapid) != rapid;
+  const bool begins = before == "R0" && compensation_ != "R0", ends = before != "R0" && compensation_ == "R0";
+  if (before != "R0" && !ends && changes) {
+    out_.list(block,
+              "between a path at rapid traverse and one at a feed the tool goes round the corner at another speed on a "
+              "HEIDENHAIN control",
+              "give all paths with radius compensation a feed");
+  }
+  if (!begins && !ends) return;
+  const bool inPlane = find(words, axis(0)) != nullptr || find(words, axis(1)) != nullptr;
+  if (motion_ != MoveKind::Rapid && motion_ != MoveKind::Linear) {
+    out_.list(block, "radius compensation begins or ends with an arc, which a SINUMERIK refuses",
+              "let it begin and end in straight lines");
+  } else if (!inPlane) {
+    out_.list(block,
+              "radius compensation begins or ends in a path without coordinates of the plane: a SINUMERIK waits for "
+              "the next path",
+              "let it begin and end in straight lines in the plane");
+  } else if (begins && withoutLength_ != std::optional(false)) {
+    out_.list(block, "with D0 a SINUMERIK knows no radius to compensate", "program D1 before this block");
+  }
 }
 
 void ToKlartext::corner(const Block& block, std::span<const Word> words) {

@@ -115,6 +115,7 @@ void ToKlartext::move(const Block& block, const Move& move) {
     out_.list(block, "with D0 heights count without the length of the tool, on a HEIDENHAIN control always with it",
               "program D1 before this block");
   }
+  if (!words.empty() && !onMachine) listCompensatedPath(block, words);
   const bool path = motion_ != MoveKind::Rapid && motion_ != MoveKind::Linear;
   for (std::size_t i = 0; i < 2; ++i) {
     if (!beside_[i] || (given(i) && !path) || (!given(1 - i) && !path) || words.empty()) continue;

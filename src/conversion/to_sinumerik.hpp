@@ -149,9 +149,11 @@ private:
   std::string cornerWord(const language::Block& block, const language::Move& move);
   /// The path block that comes next, if only a comment lies between; else nothing.
   struct NextPath {
-    bool rapid = false, hasFeed = false, compensates = false;
+    bool rapid = false, arc = false, hasFeed = false, compensates = false;
   };
   std::optional<NextPath> nextPath(const language::Block& block);
+  /// The block names coordinates of the working plane.
+  bool movesInPlane(const language::Block& block, const language::Move& move) const;
   /// Lists, after M136 and M137, a path whose feed was programmed before them.
   void listFeedOfOtherKind(const language::Block& block, const language::Move& move);
   void wherePolar(const language::Block& block, const language::Move& move, Place& target);
@@ -280,7 +282,7 @@ private:
   std::size_t lastMove_ = 0;        ///< line of the last motion, plus 1
   struct LastPath {
     language::BlockPosition next{};
-    bool rapid = false, skippable = false;
+    bool rapid = false, arc = false, inPlane = false, skippable = false;
   };
   LastPath lastPath_;  ///< of the block that `lastMove_` comes of
   std::optional<language::RadiusCompensation> compensation_ = language::RadiusCompensation::Off;

@@ -48,15 +48,29 @@ void ToSinumerik::listCompensation(const Block& block, const Instruction& instru
   } else if (onPath && isOn(compensation_) && !isOn(before) && isArc(*move)) {
     out_.list(block, "radius compensation begins with an arc, which a SINUMERIK refuses",
               "begin it in a straight line before the arc");
-  } else if (onPath && move->words.count == 0 && (isOn(before) || isOn(compensation_))) {
+  } else if (onPath && (isOn(before) || isOn(compensation_)) &&
+             (move->words.count == 0 || (before != compensation_ && !movesInPlane(block, *move)))) {
     out_.list(block,
-              "a block without coordinates moves the tool of a HEIDENHAIN control where radius compensation begins, "
-              "ends or goes on; a SINUMERIK waits for the next path",
-              "write coordinates in this block");
+              "a block without coordinates of the plane moves the tool of a HEIDENHAIN control where radius "
+              "compensation begins, ends or goes on; a SINUMERIK waits for the next path",
+              "write coordinates of the plane in this block");
+  } else if (onPath && isOn(before) && isOn(compensation_) && move->rapid != lastPath_.rapid) {
+    out_.list(block,
+              "between a path at rapid traverse and one at a feed the tool goes round the corner at another speed on a "
+              "SINUMERIK",
+              "give all paths with radius compensation a feed");
   } else if (onPath && isOn(before) && isOn(compensation_) && before != compensation_) {
     out_.list(block, "the side of radius compensation changes, which the two controls do in another way",
               "end it with R0 in a straight line before this block");
   }
+}
+
+bool ToSinumerik::movesInPlane(const Block& block, const Move& move) const {
+  const auto words = std::span<const Word>(block.words).subspan(move.words.first, move.words.count);
+  return move.polar || std::ranges::any_of(words, [&](const Word& word) {
+           const auto index = planeIndex(word.address);
+           return index && *index < 2;
+         });
 }
 
 std::string ToSinumerik::cornerWord(const Block& block, const Move& move) {
@@ -80,6 +94,7 @@ std::optional<ToSinumerik::NextPath> ToSinumerik::nextPath(const Block& block) {
     if (isCorner(move)) return std::nullopt;
     if (move.kind == MoveKind::SetCentre) continue;
     return NextPath{.rapid = move.rapid,
+                    .arc = isArc(move),
                     .hasFeed = move.feed.present(),
                     .compensates = compensates_ && move.compensation != RadiusCompensation::Unchanged &&
                                    compensation_ != move.compensation};
@@ -100,6 +115,9 @@ void ToSinumerik::corner(const Block& block, const Move& move) {
               "this corner is not followed by a path, or by the begin or end of radius compensation: the two controls "
               "round and chamfer differently there",
               "let a path follow it directly");
+  } else if (move.kind == MoveKind::Chamfer && (lastPath_.arc || next->arc)) {
+    out_.list(block, "a HEIDENHAIN control chamfers between straight lines only and stops here; a SINUMERIK goes on",
+              "write the chamfer as a line");
   } else if (lastPath_.rapid || next->rapid) {
     out_.list(block, "a corner between paths at rapid traverse is travelled at another speed on a SINUMERIK",
               "give the paths before and after the corner a feed");

@@ -180,6 +180,10 @@ void ToSinumerik::move(const Block& block, const Move& move) {
       break;
     case MoveKind::ArcTangential:
       if (move.rapid) out_.lose(block, "FMAX: a SINUMERIK travels arcs at a feed");
+      if (!lastPath_.inPlane) {
+        out_.list(block, "this arc continues a path in the plane, and none comes directly before it: a SINUMERIK stops",
+                  "write a path in the plane before it, or the arc with CC and C");
+      }
       path = "CT";
       break;
     case MoveKind::ArcClockwise:
@@ -214,7 +218,11 @@ void ToSinumerik::move(const Block& block, const Move& move) {
   }
   out_.line(compensation + path + words + ending);
   lastMove_ = out_.size();
-  lastPath_ = {.next = block.next, .rapid = move.rapid, .skippable = block.skippable};
+  lastPath_ = {.next = block.next,
+               .rapid = move.rapid,
+               .arc = move.kind != MoveKind::Linear && move.kind != MoveKind::Rapid,
+               .inPlane = movesInPlane(block, move),
+               .skippable = block.skippable};
 }
 
 }  // namespace probewright::conversion

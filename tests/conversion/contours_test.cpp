@@ -93,6 +93,42 @@ TEST(ConvertCompensation, NamesWhereItEndsOnOneControlOnly) {
                      "TOOL CALL S200\n"));
 }
 
+/// A SINUMERIK begins and ends it in the plane, in straight lines, and with a radius. In what HEIDENHAIN controls do
+/// there the tool moves at once.
+TEST(ConvertCompensation, NamesWhereItBeginsAndEndsOtherwise) {
+  const std::string mill = "TOOL CALL 1 Z S1000\nL X+0 Y+0 R0 F400\n";
+  for (const char* blocks : {"L Z+90 RL\nL X+50\nL Y+50\nL X+0 R0\n", "L X+50 RL\nL Y+50\nL Z+90 R0\nL X+0\n"})
+    EXPECT_TRUE(lists(toSinumerik(klartextProgram(mill + blocks)), "without coordinates of the plane")) << blocks;
+  EXPECT_TRUE(goesTheSameWay("TOOL CALL 1 Z S1000\nL X+20 Y+0 RL\nL Z+90\nL X+50\nL Y+60\nL X+0 R0\n"));
+  for (const char* blocks : {"G41 Z90\nX50\nY50\nG40 X0\n", "G41 X50\nY50\nG40 Z90\nX0\n"})
+    EXPECT_TRUE(lists(toKlartext(fromSinumerik(blocks)), "without coordinates of the plane")) << blocks;
+  for (const char* blocks : {"G41 G2 X20 Y20 CR=20\nG1 Y50\nG40 X0\n", "G41\nG3 X20 Y20 CR=20\nG1 Y50\nG40 X0\n"})
+    EXPECT_TRUE(lists(toKlartext(fromSinumerik(blocks)), "with an arc, which a SINUMERIK refuses")) << blocks;
+  EXPECT_TRUE(lists(toKlartext(fromSinumerik("D0\nG41 X20\nX50\nG40 Y20\n")), "knows no radius"));
+  EXPECT_TRUE(goesTheSameWayBack("G41 X20 Y5\nG2 X60 Y5 CR=30\nG1 Z90\nY60\nG40 X0\n"));
+  for (const char* blocks : {"G41 X20\nX50\nG0 Y50\nG1 X20\nG40 X0\n"})
+    EXPECT_TRUE(lists(toKlartext(fromSinumerik(blocks)), "at another speed")) << blocks;
+  EXPECT_TRUE(lists(toSinumerik(klartextProgram(mill + "L X+20 RL\nL X+50\nL Y+50 FMAX\nL X+20\nL X+0 R0\n")),
+                    "at another speed"));
+}
+
+/// What a SINUMERIK or a HEIDENHAIN control refuses alone.
+TEST(ConvertCorners, NameArcsThatOneControlRefuses) {
+  const char* tangent = "this arc continues a path in the plane";
+  EXPECT_TRUE(lists(toSinumerik(klartextProgram("L X+0 Y+0 R0 F400\nL Z+90\nCT X+20 Y+20\n")), tangent));
+  EXPECT_TRUE(lists(toSinumerik(klartextProgram("CT X+20 Y+20 F400\n")), tangent));
+  EXPECT_TRUE(goesTheSameWay("L X+20\nCT X+40 Y+20\nCT X+20 Y+50\n"));
+  for (const char* blocks : {"L X+20\nCHF 2\nCR X+40 Y+20 R+30 DR-\n", "CR X+40 Y+20 R+30 DR-\nCHF 2\nL X+90\n"})
+    EXPECT_TRUE(lists(toSinumerik(fromKlartext(blocks)), "between straight lines only")) << blocks;
+}
+
+/// A rounding beside an arc touches it elsewhere than the corner was.
+TEST(ConvertCorners, RoundBesideArcs) {
+  EXPECT_TRUE(goesTheSameWay("L X+20 F60\nRND R5\nCR X+40 Y+30 R+25 DR-\nRND R4\nL Y-20\n"));
+  EXPECT_TRUE(goesTheSameWay("CR X+40 Y+30 R+25 DR+ F60\nRND R6\nCR X+0 Y+20 R+40 DR+\nRND R3\nL Y-20\n"));
+  EXPECT_TRUE(goesTheSameWayBack("G3 X-17 Y57 CR=30 RND=2 F60\nG1 X20 Y77\n"));
+}
+
 /// On the way back, too; and corners that no path follows directly.
 TEST(ConvertCompensation, NamesWhatInterruptsContours) {
   for (const char* word : {"TRANS X5", "G55", "T1 M6 D1", "SUPA G0 Z-60 D0", "S300", "F250", "STOPRE", "D1"}) {

@@ -278,6 +278,32 @@ TEST(ConvertPromises, JudgesByLimitsThatNobodyReads) {
   EXPECT_THAT(there.text, HasSubstr("SETAL(67000"));
 }
 
+/// CYCLE977 goes over the middle of a spigot at the clearance height, cycles of a HEIDENHAIN control beside it.
+TEST(ConvertPromises, NamesClearanceHeightsBesideSpigots) {
+  const auto spigot = [](double clearance) {
+    return toSinumerik(klartextProgram(probe(424, {{273, 0},
+                                                   {274, 0},
+                                                   {282, 20},
+                                                   {283, 30},
+                                                   {261, -8},
+                                                   {320, 6},
+                                                   {260, clearance},
+                                                   {301, 0},
+                                                   {284, 0},
+                                                   {285, 0},
+                                                   {286, 0},
+                                                   {287, 0},
+                                                   {279, 0},
+                                                   {280, 0},
+                                                   {281, 0},
+                                                   {309, 0},
+                                                   {330, 0}})));
+  };
+  EXPECT_FALSE(lists(spigot(5), "Q260"));
+  EXPECT_TRUE(lists(spigot(-8), "Q260"));
+  EXPECT_TRUE(lists(spigot(-20), "Q260"));
+}
+
 TEST(ConvertPromises, MeasuresSmallHolesFromTheirMiddle) {
   const PlantedPart part = blockWithHole(8.03, {0.3, 0.2, 0});
   const Twin original = runKlartext(klartextProgram(inspectHole(8, 0, 0) + "L X+Q151 Y+Q152 R0 FMAX\n"), part);

@@ -75,6 +75,12 @@ TEST(ConvertSinumerikCalls, StopsAtAnyDeviationWithoutASafeArea) {
   }
 }
 
+/// 0 turns the coordinate system, another number a rotary axis.
+TEST(ConvertSinumerikCalls, NamesWhatIsCorrectedByARunningValue) {
+  const std::string call = "CYCLE998(105,10001,R1,1,0,0,,5,5,102,1,40)\n";
+  EXPECT_TRUE(lists(toKlartext(sinumerikProgram("R1=0\n" + call)), "S_RA of CYCLE998 is known only"));
+}
+
 /// A program may calibrate one data set and measure with another, which may be empty.
 TEST(ConvertSinumerikCalls, NamesOtherDataSetsOfTheProbe) {
   for (const int set : {0, 1, 2}) {

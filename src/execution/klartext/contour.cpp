@@ -180,7 +180,10 @@ std::optional<Element> Contour::cut(Element& first, Element& second, const Corne
     between.centre = *centre;
     between.from = footOn(first, *centre);
     between.to = footOn(second, *centre);
-    between.sweep = std::atan2(turn, in.dot(out));
+    // Beside an arc the tangents at the ends differ from those at the vertex.
+    const Vector2 begin = between.from - *centre, end = between.to - *centre;
+    between.sweep = std::atan2(cross(begin, end), begin.dot(end));
+    if (between.sweep * side < 0) between.sweep += side * 2 * std::numbers::pi;
   } else {
     if (first.arc || second.arc) {
       throw Alarm("Chamfer not permitted", "A chamfer CHF is possible between two straight lines only");
