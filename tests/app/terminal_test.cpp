@@ -80,6 +80,9 @@ TEST(Terminal, CountsCharactersNotBytes) {
   EXPECT_EQ(fitted(umlauts, 20), umlauts);
   const std::string red = "\033[31mred\033[0m one two three four";
   EXPECT_EQ(fitted(red, 22), red);
+  EXPECT_EQ(fitted(red, 21), "\033[31mred\033[0m one two three\n    four");
+  const std::string cut = "12345678901234567890\033[3";
+  EXPECT_EQ(fitted(cut, 20), cut) << "a colour that is cut off takes no column either";
 }
 
 TEST(Terminal, IsFilledNotOverrun) {

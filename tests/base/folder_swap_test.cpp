@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <stop_token>
 #include <string>
 
 #include "base/file.hpp"
@@ -35,6 +36,32 @@ TEST(FolderLock, KeepsTheMarkOfAnUnfinishedSetThatItCannotRemove) {
   EXPECT_FALSE(fs::exists(aside));
   EXPECT_TRUE(fs::is_empty(folder));
   fs::remove_all(parent);
+}
+
+/// Whoever has to wait is told so once, and may give up.
+TEST(FolderLock, WaitsForAnotherRunUntilItIsToStop) {
+  std::string pattern = (fs::path(::testing::TempDir()) / "probewright-swap-XXXXXX").string();
+  ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
+  const fs::path folder = pattern;
+  const auto isOurs = [](const fs::path&) { return false; };
+  {
+    const auto held = FolderLock::take(folder, {}, isOurs);
+    ASSERT_TRUE(held);
+    std::stop_source stop;
+    int told = 0;
+    const auto second = FolderLock::take(
+        folder,
+        [&] {
+          ++told;
+          stop.request_stop();
+        },
+        isOurs, stop.get_token());
+    ASSERT_FALSE(second);
+    EXPECT_NE(second.error().message.find("interrupted"), std::string::npos) << second.error().message;
+    EXPECT_EQ(told, 1);
+  }
+  EXPECT_TRUE(FolderLock::take(folder, {}, isOurs)) << "nobody holds it any more";
+  fs::remove_all(folder);
 }
 
 /// Folders that were made for files which could not be written go again, and no other folder does.

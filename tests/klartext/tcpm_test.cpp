@@ -112,6 +112,11 @@ TEST(Tcpm, SpaceAnglesCountInTheTiltedPlaneAndKeepWhatABlockLeavesOut) {
     const Vector3 wanted(0, -std::sin(tilt), std::cos(tilt));
     EXPECT_NEAR((toolDirection(world, world.machine->position()) - wanted).norm(), 0, 1e-7);
   }
+  // Angles of axes that a machine does not have: B of the table points the tool as A 0, C 0 want it.
+  World table("mill4-table");
+  expectFinished(table.run("TOOL CALL 5 Z F2000\nFUNCTION TCPM F TCP AXIS SPAT PATHCTRL AXIS\nL A+0 B+10 C+0 F2000\n"));
+  const Vector3 wanted = Eigen::AngleAxisd(10 * std::numbers::pi / 180, Vector3::UnitY()) * Vector3::UnitZ();
+  EXPECT_NEAR((toolDirection(table, table.machine->position()) - wanted).norm(), 0, 1e-7);
   // Axes that do not reach: A of the trunnion ends at 120 degrees.
   World world = atStart("mill5-table-table");
   const RunResult result = world.run(toStart + "FUNCTION TCPM F TCP AXIS SPAT PATHCTRL AXIS\nL A+130 B+0 C+0 F2000\n");

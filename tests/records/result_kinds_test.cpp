@@ -70,6 +70,29 @@ TEST(ResultKinds, TellTheUnit) {
   EXPECT_EQ(name.valueKind(), ValueKind::Text);
 }
 
+/// CYCLE971 leaves its edges one by one: _OVR[100] to [199] their radius, [200] to [299] its difference, and so on.
+TEST(ResultKinds, OfSingleEdgesFollowTheirIndex) {
+  const auto cycles = cyclesOf(control::ControlKind::Sinumerik840Dsl);
+  const auto cycle = std::ranges::find(cycles, "CYCLE971", &CycleDefinition::name);
+  ASSERT_NE(cycle, cycles.end());
+  using Meaning = std::pair<Role, control::Characteristic>;
+  const auto kindOf = [&](const char* name) {
+    const ResultDefinition* found = (*cycle)->result(name, 1);
+    return found == nullptr ? std::optional<Meaning>() : Meaning(found->kind.role, found->kind.of);
+  };
+  for (const char* name : {"_OVR[100]", "_OVR[150]", "_OVR[199]"})
+    EXPECT_EQ(kindOf(name), Meaning(Role::Actual, of::radius.number(1))) << name;
+  for (const char* name : {"_OVR[200]", "_OVR[299]"})
+    EXPECT_EQ(kindOf(name), Meaning(Role::Difference, of::radius.number(1))) << name;
+  for (const char* name : {"_OVR[300]", "_OVR[399]"})
+    EXPECT_EQ(kindOf(name), Meaning(Role::Actual, of::length1.number(1))) << name;
+  for (const char* name : {"_OVR[400]", "_OVR[499]"})
+    EXPECT_EQ(kindOf(name), Meaning(Role::Difference, of::length1.number(1))) << name;
+  for (const char* name : {"_OVR[99]", "_OVR[500]", "_OVR[100", "_OVI[150]", "_OVR[x]"})
+    EXPECT_EQ(kindOf(name), std::nullopt) << name;
+  EXPECT_EQ((*cycle)->result("_OVR[100]", 0), nullptr) << "calibration leaves no edges";
+}
+
 TEST(ResultKinds, HaveNames) {
   EXPECT_EQ(control::nameOf(Role::Statistic), "statistic");
   EXPECT_EQ(control::nameOf(control::Quantity::Name), "name");

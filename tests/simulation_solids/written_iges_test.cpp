@@ -47,6 +47,26 @@ TEST(WrittenIges, ModelsOfAnotherScaleHaveTheirTrueSize) {
   }
 }
 
+/// A scale that none can be, zero or less, says nothing: the numbers are millimetres then.
+TEST(WrittenIges, ModelsOfAScaleThatIsNoneHaveTheSizeOfTheirNumbers) {
+  std::mt19937_64 random(311);
+  for (const std::string scale : {"0.", "-2"}) {
+    const Pose pose = randomPose(random, 40);
+    IgesFile file({2, 1});
+    file.cylinder(pose, 12, -5, 20, 0.2, 4);
+    std::string text = file.text();
+    const std::string one = "4Hpart," + igesNumber(1) + ",2,2HMM";
+    const std::size_t at = text.find(one);
+    ASSERT_NE(at, std::string::npos) << text.substr(0, 400);
+    text.replace(at + 7, igesNumber(1).size(), scale);
+    const ScratchFolder folder;
+    const auto solid = readIges(folder.write("part.igs", text));
+    ASSERT_TRUE(solid) << scale << ": " << format(solid.error());
+    expectAsMeant("scale " + scale, **solid, distanceOfShell(12, -5, 20, 0.2, 4, pose), 40, pose * Vector3(0, 0, 7),
+                  random, 40);
+  }
+}
+
 TEST(WrittenIges, SurfacesOfRevolutionAndOfLinesAreMetWhereTheyAre) {
   std::mt19937_64 random(303);
   for (int round = 0; round < 4; ++round) {

@@ -176,6 +176,7 @@ TEST(GlobalData, MistakesOfDefinitionFilesHavePlaces) {
       {"G0 X10", 1, 1, "lines of DEF and DEFINE only"},
       {"DEF NCK REAL _A=1/0", 1, 14, "divis"},
       {"DEF NCK STRING _A", 1, 16, "'['"},
+      {"DEF NCK REAL _A\nN REDEF _A LLI 1", 2, 1, ""},  // N without a number, which is not a block number
   };
   for (const Case& each : cases) {
     Diagnostics mistakes;

@@ -98,6 +98,16 @@ TEST(StudyEnds, WithNoResultAfterTheMostTrialsToo) {
   EXPECT_EQ(runStudy(study, {}, stoppedWhere([](double) { return true; }), {}).end, StudyEnd::AllTrials);
 }
 
+/// A program that comes to its end and measures nothing has no digits that could hold.
+TEST(StudyEnds, AfterTheMostTrialsWhereNothingIsMeasured) {
+  Study study = adaptiveStudy();
+  study.mostTrials = 1500;
+  const StudyResult result = runStudy(study, {}, [](const Draw&) { return Outcome(); }, {});
+  EXPECT_EQ(result.end, StudyEnd::MostTrials);
+  EXPECT_EQ(result.trials, 1500U);
+  EXPECT_TRUE(result.answers.empty());
+}
+
 /// A fifth of the trials comes to the result: its digits are those that count.
 TEST(StudyEnds, WhenResultsThatFewTrialsComeToAreStable) {
   const Study study = adaptiveStudy();

@@ -113,7 +113,11 @@ TEST_P(EveryNumber, IsDrawnAsItIsWritten) {
       continue;
     }
     const setup::SimulatedRun run = setup::runText(program.string(), readFile(program).value(), *setup, {});
-    const auto expected = valuesOf(observationsOf(run.outcome.journal, {program.string(), "", 0, {}}));
+    const auto observed = observationsOf(run.outcome.journal, {program.string(), "", 0, {}});
+    for (const Observation& each : observed)
+      EXPECT_FALSE(each.of.firstOrder) << each.of.key
+                                       << ": where touches do not scatter there is no uncertainty of them";
+    const auto expected = valuesOf(observed);
     const auto found = valuesOf(trial.observations);
     EXPECT_EQ(found.size(), expected.size());
     for (const auto& [key, measured] : expected) {

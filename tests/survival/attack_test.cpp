@@ -61,6 +61,22 @@ TEST(Attack, APostThatIsNearlyTouched) {
   }
 }
 
+/// A bar lies over the border of the bore, higher than the ball: the stylus of 2 mm meets it while the ball is on its
+/// way from 7 mm to where it touches, 12 mm from the middle, wherever the bar reaches nearer than 13 mm.
+TEST(Attack, ABarThatTheStylusMeetsOnItsWayToATouch) {
+  std::string program = klartext(inspectBore);
+  program.replace(program.find("Q320=+2"), 7, "Q320=+5");
+  const std::string bar = fixture("bar", {28, 0, -478}, {20, 60, 8});  // from 18 mm on
+  const Survival survival = survivalOf(plateSetup("TNC640", "stylus_radius = 1\nbody_radius = 20\n", bar), program,
+                                       {"fixture[bar].pose.x=7.4"}, few);
+  EXPECT_EQ(survival.end, SurvivalEnd::Finished);
+  EXPECT_GT(survival.failed, 0U);
+  EXPECT_GT(survival.proven, 0.5);
+  for (const double x : {20.7, 21.5, 22.9})
+    EXPECT_FALSE(isProven(survival, {x})) << x;
+  EXPECT_TRUE(isProven(survival, {24}));
+}
+
 /// The touch on a disc of 80 mm leaves its face in one corner of the box only: where x and y both shift by more
 /// than 2.28 mm or so, 0.01 % of the box.
 TEST(Attack, ATinyCornerThatFails) {

@@ -37,6 +37,19 @@ TEST(Survive, ProvesNoMoreThanWhatRunsSurviveAndMostOfIt) {
   }
 }
 
+/// A corner that is measured turns what comes later, the more the farther it is.
+TEST(Survive, ProvesSmallBoxesAfterACorner) {
+  const std::string corner =
+      "TCH PROBE 414 CORNER ~\nQ263=-30 ~\nQ264=-30 ~\nQ326=+20 ~\nQ296=-40 ~\nQ297=-20 ~\nQ327=+20 ~\nQ261=-8 ~\n"
+      "Q320=+3 ~\nQ260=+20 ~\nQ301=+1 ~\nQ304=+0 ~\nQ305=+1 ~\nQ331=-40 ~\nQ332=-30 ~\nQ303=+1 ~\nQ381=+0 ~\n"
+      "Q382=+0 ~\nQ383=+0 ~\nQ384=+0 ~\nQ333=+0\n";
+  const Survival survival = survivalOf(plateSetup(), klartext(corner + inspectBore), {"part.pose.x=0.1"},
+                                       {.samples = 10, .boxes = 24, .checks = 20});
+  EXPECT_EQ(survival.end, SurvivalEnd::Finished);
+  EXPECT_EQ(survival.failed, 0U);
+  EXPECT_GT(survival.proven, 0.25) << survivalText(survival);
+}
+
 /// The program sets Z on the top face first: the height of the part matters only as far as this touch reaches.
 TEST(Survive, FollowsWhatIsMeasured) {
   const std::string setup = plateSetup();

@@ -133,6 +133,15 @@ TEST(TrueValues, OfAnEdgeAndAPlaneAreTheirAngles) {
   EXPECT_NEAR(std::abs(plane.value("Q170")), 1.2, exact);
   EXPECT_GT(plane.value("Q170") * plane.measured("Q170"), 0);
   EXPECT_FALSE(plane.of("Q172")) << "a plane does not tell its angle about Z";
+  // Each of several touches is as high as the face leans there.
+  const Told points =
+      run(world,
+          "TOOL CALL 1 Z\nL Z+50 R0 FMAX\nTCH PROBE 1420 PLANE ~\nQ1100=+30 ~\nQ1101=-25 ~\nQ1102=+0 ~\n"
+          "Q1103=-30 ~\nQ1104=-25 ~\nQ1105=+0 ~\nQ1106=+30 ~\nQ1107=+25 ~\nQ1108=+0 ~\nQ372=-3 ~\n"
+          "Q320=+2 ~\nQ260=+20 ~\nQ1125=+2 ~\nQ309=+0 ~\nQ1126=+0 ~\nQ1120=+0 ~\nQ1121=+0\n");
+  ASSERT_TRUE(points.finished()) << points.why();
+  for (const auto& [name, y] : {std::pair("Q952", -25), {"Q955", -25}, {"Q958", 25}})
+    EXPECT_NEAR(points.value(name), y * std::tan(radiansFromDegrees(1.2)), exact) << name;
 }
 
 TEST(TrueValues, OfACornerAndACircleOfHolesComeFromSeveralFaces) {
@@ -172,7 +181,8 @@ TEST(TrueValues, OfACornerAndACircleOfHolesComeFromSeveralFaces) {
   EXPECT_NEAR(bolts.value("Q153"), 2 * circle.radius, exact);
 }
 
-/// In line with the touches the points of both holes lie in a plane, which nobody has measured.
+/// In line with the touches the points of both holes lie in a plane, which nobody has measured. Each hole has a size
+/// and a place of its own.
 TEST(TrueValues, OfALineThroughTwoHolesAreItsAngleInLineWithTheTouches) {
   for (const double c : {0.0, 0.7, -0.4}) {
     World world;
@@ -182,17 +192,26 @@ TEST(TrueValues, OfALineThroughTwoHolesAreItsAngleInLineWithTheTouches) {
         "60, "
         "20]\n",
         c);
-    for (const int x : {-20, 20})
-      world.part += fmt::format("[[part.feature]]\nshape = \"hole\"\ndiameter = 16\ncentre = [{}, 0, 0]\n", x);
+    for (const auto& [x, diameter] : {std::pair(-20, 16.01), {20, 17.02}})
+      world.part +=
+          fmt::format("[[part.feature]]\nshape = \"hole\"\ndiameter = {}\ncentre = [{}, 0, 0]\n", diameter, x);
     const Told told =
         run(world,
             "TOOL CALL 1 Z\nL Z+50 R0 FMAX\nTCH PROBE 1411 TWO CIRCLES ~\nQ1100=-20 ~\nQ1101=+0 ~\nQ1102=-5 ~\n"
-            "Q1116=+16 ~\nQ1103=+20 ~\nQ1104=+0 ~\nQ1105=-5 ~\nQ1117=+16 ~\nQ1115=+0 ~\nQ423=+4 ~\nQ325=+0 ~\n"
+            "Q1116=+16 ~\nQ1103=+20 ~\nQ1104=+0 ~\nQ1105=-5 ~\nQ1117=+17 ~\nQ1115=+0 ~\nQ423=+4 ~\nQ325=+0 ~\n"
             "Q1119=+360 ~\nQ320=+0 ~\nQ260=+20 ~\nQ1125=+2 ~\nQ309=+0 ~\nQ1126=+0 ~\nQ1120=+0 ~\nQ1121=+0\n");
     ASSERT_TRUE(told.finished()) << told.why();
     EXPECT_NEAR(told.measured("Q964"), c, exact);
     ASSERT_TRUE(told.of("Q964"));
     EXPECT_NEAR(told.value("Q964"), c, exact);
+    const double cosine = std::cos(radiansFromDegrees(c)), sine = std::sin(radiansFromDegrees(c));
+    for (const auto& [name, value] : {std::pair("Q966", 16.01),
+                                      {"Q967", 17.02},
+                                      {"Q950", -20 * cosine},
+                                      {"Q951", -20 * sine},
+                                      {"Q953", 20 * cosine},
+                                      {"Q954", 20 * sine}})
+      EXPECT_NEAR(told.value(name), value, exact) << name;
   }
 }
 
