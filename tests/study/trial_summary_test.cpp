@@ -107,8 +107,8 @@ TEST_P(Sums, SayWhatAllValuesSay) {
   EXPECT_LT(found.values(0, 0.95).quantileError, 1e-3 * found.values(0, 0.95).deviation);
   EXPECT_FALSE(found.errors(1, 0.95));
   EXPECT_NEAR(found.truths(0).mean, summarize(world.truth, 0.95).mean, 1e-9);
-  EXPECT_NEAR(*found.correlation(0, 1), *correlation(world.x, world.y), 1e-8);
-  EXPECT_NEAR(*found.correlation(2, 1), *correlation(world.whole(world.y), world.whole(world.z)), 1e-8);
+  EXPECT_NEAR(found.correlation(0, 1).value(), correlation(world.x, world.y).value(), 1e-8);
+  EXPECT_NEAR(found.correlation(2, 1).value(), correlation(world.whole(world.y), world.whole(world.z)).value(), 1e-8);
   const auto counts = histogramOf(world.x).counts, sketched = found.histogram(0).counts;
   EXPECT_EQ(std::accumulate(sketched.begin(), sketched.end(), std::size_t{0}), trials);
   ASSERT_EQ(counts.size(), sketched.size());
@@ -137,7 +137,7 @@ TEST(TrialSums, AreTheSameBitsInAnyOrderAndThroughMessages) {
       const Summary each = found.values(i, 0.9);
       numbers.insert(numbers.end(), {each.mean, each.deviation, each.median, each.symmetric->low, each.shortest->high});
       for (const std::size_t k : {0, 1})
-        numbers.push_back(*found.correlation(i, k));
+        numbers.push_back(found.correlation(i, k).value());
     }
     return numbers;
   };

@@ -441,6 +441,23 @@ TEST(Travel, WarnsOfBlocksThatComeNearAnEnd) {
   EXPECT_NEAR(near.position, last - 2.5, 1e-6);
   EXPECT_THAT(reports::summaryText(told.outcome.journal, told.outcome.info),
               HasSubstr("  warning  travel: axis X came within 2.5 mm of an end of its travel, at +"));
+  // Each block has its own: of an arc it is the place that comes nearest, 2.5 mm, on the way from 22.5 mm before the
+  // end and back; the axis that stands still does not count.
+  session::RunOptions traced;
+  traced.trace = true;
+  const Told blocks = run(world,
+                          fmt::format("TOOL CALL 1 Z\nL Z+60 R0 FMAX\nL X{0:+.3f} Y-20 FMAX\nCC X{0:+.3f} Y+0\n"
+                                      "C X{0:+.3f} Y+20 DR+ F5000\nL X{1:+.3f} FMAX\nL Y+0\nL X{2:+.3f} FMAX\nL X+0\n",
+                                      last - 22.5, last - 1, last - 4),
+                          {}, traced);
+  ASSERT_TRUE(blocks.finished()) << blocks.why();
+  const auto& ends = blocks.truth().nearEnds;
+  ASSERT_EQ(ends.size(), 3U);
+  for (const auto& [i, line, margin] : {std::tuple(0U, 6U, 2.5), {1U, 7U, 1.0}, {2U, 9U, 4.0}}) {
+    ASSERT_TRUE(ends[i].place);
+    EXPECT_EQ(ends[i].place->line, line);
+    EXPECT_NEAR(ends[i].margin, margin, 0.01);
+  }
   world.more = "";
   EXPECT_THAT(run(world, program).truth().nearEnds, IsEmpty()) << "no limit, no warnings";
 }

@@ -66,7 +66,8 @@ struct Told {
   }
 };
 
-inline Told run(const World& world, const std::string& program, setup::MachineOptions options = {}) {
+inline Told run(const World& world, const std::string& program, setup::MachineOptions options = {},
+                const session::RunOptions& running = {}) {
   Diagnostics diagnostics;
   const auto setup = setup::parseSetup(world.text(), "world.toml", diagnostics);
   if (!setup) {
@@ -76,7 +77,7 @@ inline Told run(const World& world, const std::string& program, setup::MachineOp
   const bool heidenhain = world.control != "840Dsl";
   const std::string text =
       heidenhain ? fmt::format("BEGIN PGM T {0}\n{1}END PGM T {0}\n", world.unit, program) : program + "M30\n";
-  return {setup::runText(heidenhain ? "T.H" : "T.MPF", text, *setup, session::RunOptions(), options).outcome};
+  return {setup::runText(heidenhain ? "T.H" : "T.MPF", text, *setup, running, options).outcome};
 }
 
 /// A plate of 80 x 60 x 20 whose top face carries the part's origin, with a hole of 30.01 in the middle.

@@ -181,6 +181,104 @@ TEST(TrueValues, OfACornerAndACircleOfHolesComeFromSeveralFaces) {
   EXPECT_NEAR(bolts.value("Q153"), 2 * circle.radius, exact);
 }
 
+/// Three touches: a side that is touched once is taken as square to the other one.
+TEST(TrueValues, OfACornerOfThreePointsAreThoseOfItsFaces) {
+  World world;
+  world.control = "840Dsl";
+  world.origin = {0, 0, -480};
+  const double x = 0.4, y = -0.3, c = 0.7;
+  world.part = plate(fmt::format("{{ x = {}, y = {}, z = -480, c = {} }}", x, y, c));
+  const Vector3 planted = translation({x, y, 0}) * probewright::rotation(Vector3::UnitZ(), c) * Vector3(-40, -30, 0);
+  // Two points on the side towards -Y and one on that towards -X, and the other way round: the first edge is along Y
+  // then.
+  for (const auto& [points, turned] : {std::pair("-20,-45,20,-45,-55,10", 0.0), {"-55,10,-55,-10,20,-45", -90.0}}) {
+    const Told told = run(world, fmt::format("T1 D1\nM6\nG54 G17 G0 X-55 Y-45 Z20\nG1 Z-8 F2000\n"
+                                             "CYCLE961(16,,1,{},,,,,0,,0,20,80,1,,1,)\n",
+                                             points));
+    ASSERT_TRUE(told.finished()) << told.why();
+    EXPECT_NEAR(std::remainder(told.value("_OVR[4]") - c - turned, 180), 0, exact) << points;
+    EXPECT_NEAR(told.value("_OVR[5]"), planted.x(), exact) << points;
+    EXPECT_NEAR(told.value("_OVR[6]"), planted.y(), exact) << points;
+  }
+}
+
+/// Its walls lean: they cross elsewhere at each height.
+TEST(TrueValues, OfATiltedCornerAreThoseAtTheHeightOfTheTouches) {
+  const double a = radiansFromDegrees(2), down = 8;
+  for (const double lower : {0.0, 6.0}) {
+    World world;
+    world.origin = {0, 0, -480 - lower};
+    world.part = plate("{ z = -480, a = 2 }");
+    const Told corner = run(
+        world,
+        fmt::format("TOOL CALL 1 Z\nL Z+50 R0 FMAX\nTCH PROBE 414 CORNER ~\nQ263=-30 ~\nQ264=-30 ~\nQ326=+20 ~\n"
+                    "Q296=-40 ~\nQ297=-20 ~\nQ327=+20 ~\nQ261={:+} ~\nQ320=+3 ~\nQ260=+26 ~\nQ301=+1 ~\nQ304=+0 ~\n"
+                    "Q305=+1 ~\nQ331=+0 ~\nQ332=+0 ~\nQ303=+1 ~\nQ381=+0 ~\nQ382=+0 ~\nQ383=+0 ~\nQ384=+0 ~\nQ333=+0\n",
+                    lower - down));
+    ASSERT_TRUE(corner.finished()) << corner.why();
+    EXPECT_NEAR(corner.value("Q151"), -40, exact);
+    // The ball touches beside the height of its centre, by its radius times the sine of the tilt.
+    EXPECT_NEAR(corner.value("Q152"), -(30 - down * std::sin(a)) / std::cos(a), 0.004);
+  }
+}
+
+/// Cycle 418 sets the preset where the lines from the first hole to the third and from the second to the fourth cross.
+TEST(TrueValues, OfFourHolesAreWhereTheirDiagonalsCross) {
+  World world;
+  world.origin = {0, 0, -480};
+  const Pose pose = translation({0.4, -0.3, 0}) * probewright::rotation(Vector3::UnitZ(), 0.7);
+  world.part =
+      "[part]\npose = { x = 0.4, y = -0.3, z = -480, c = 0.7 }\n[[part.feature]]\nshape = \"box\"\ncentre = [0, 0, "
+      "-20]\nsize = [80, 60, 20]\n";
+  const Vector3 holes[] = {{-25, -15, 0}, {25, -18, 0}, {22, 16, 0}, {-24, 14, 0}};
+  for (const Vector3& hole : holes)
+    world.part +=
+        fmt::format("[[part.feature]]\nshape = \"hole\"\ndiameter = 12\ncentre = [{}, {}, 0]\n", hole.x(), hole.y());
+  const Told told =
+      run(world,
+          "TOOL CALL 1 Z\nL Z+50 R0 FMAX\nTCH PROBE 418 FOUR HOLES ~\nQ268=-25 ~\nQ269=-15 ~\nQ270=+25 ~\nQ271=-18 ~\n"
+          "Q316=+22 ~\nQ317=+16 ~\nQ318=-24 ~\nQ319=+14 ~\nQ261=-5 ~\nQ260=+20 ~\nQ305=+1 ~\nQ331=+0 ~\nQ332=+0 ~\n"
+          "Q303=+1 ~\nQ381=+0 ~\nQ382=+0 ~\nQ383=+0 ~\nQ384=+0 ~\nQ333=+0\n");
+  ASSERT_TRUE(told.finished()) << told.why();
+  const Vector3 first = holes[2] - holes[0], second = holes[3] - holes[1], between = holes[1] - holes[0];
+  const double along =
+      (between.x() * second.y() - between.y() * second.x()) / (first.x() * second.y() - first.y() * second.x());
+  const Vector3 planted = pose * Vector3(holes[0] + along * first);
+  EXPECT_NEAR(told.value("Q151"), planted.x(), exact);
+  EXPECT_NEAR(told.value("Q152"), planted.y(), exact);
+}
+
+/// From a top of 40 mm the cone gets 1 mm wider each millimetre further down. The ball's centre is 8 mm below the top;
+/// it touches lower than that, as the wall leans towards it.
+TEST(TrueValues, OfAConeAreThoseAtTheHeightOfTheTouches) {
+  World world;
+  world.origin = {0, 0, -480};
+  world.part =
+      "[part]\npose = { z = -500 }\n[[part.feature]]\nshape = \"cone\"\ndiameter = 60\ntop_diameter = 40\nheight = "
+      "20\n";
+  const Told told =
+      run(world,
+          "TOOL CALL 1 Z\nL Z+50 R0 FMAX\nTCH PROBE 422 STUD ~\nQ273=+0 ~\nQ274=+0 ~\nQ262=+48 ~\nQ325=+0 ~\n"
+          "Q247=+90 ~\nQ261=-8 ~\nQ320=+2 ~\nQ260=+20 ~\nQ301=+1 ~\nQ277=+60 ~\nQ278=+40 ~\nQ279=+0.5 ~\n"
+          "Q280=+0.5 ~\nQ281=+0 ~\nQ309=+0 ~\nQ330=+0\n");
+  ASSERT_TRUE(told.finished()) << told.why();
+  EXPECT_NEAR(told.value("Q153"), 40 + 8 + 3 * std::sin(std::atan(0.5)), 1e-4);
+  EXPECT_NEAR(told.value("Q151"), 0, exact);
+  EXPECT_EQ(told.of("Q153")->shape, "cone");
+}
+
+/// CYCLE998 tells the angles of a plane about both axes from three points.
+TEST(TrueValues, OfAPlaneOfThreePointsAreItsAngles) {
+  World world;
+  world.control = "840Dsl";
+  world.origin = {0, 0, -480};
+  world.part = plate("{ z = -480, a = 1.2, b = 0.7 }");
+  const Told told = run(world, "T1 D1\nM6\nG54 G17 G0 X-30 Y-20 Z12\nCYCLE998(6,,,1,,,,10,5,,,,60,,60,40,1,,1,)\n");
+  ASSERT_TRUE(told.finished()) << told.why();
+  EXPECT_NEAR(told.value("_OVR[4]"), 1.2, exact);
+  EXPECT_NEAR(told.value("_OVR[5]"), 0.7, exact);
+}
+
 /// In line with the touches the points of both holes lie in a plane, which nobody has measured. Each hole has a size
 /// and a place of its own.
 TEST(TrueValues, OfALineThroughTwoHolesAreItsAngleInLineWithTheTouches) {
