@@ -157,6 +157,22 @@ TEST(MisalignmentTables, ShiftTheZeroOfTheAxisInADatumTable) {
       EXPECT_EQ(nowhere.alarm(), "Datum table not selected") << nowhere.why();
     }
   }
+  // An offset of the axis in the preset stays: the datum table counts from it.
+  for (const ControlKind kind : {newer, older}) {
+    Bench bench = edge(kind, 0);
+    const TableFolder folder(bench);
+    folder.put("ZERO.D", control::heidenhain::defaultDatumTable(kind, "ZERO.D"));
+    const std::string twice = probe(403, with(edgeWords, {{305, 1}})) + "SEL TABLE \"ZERO.D\"\n" +
+                              probe(403, with(edgeWords, {{303, 0}, {380, 1}}));
+    const Ran aligned = bench.run(twice),
+              ran = bench.run(twice + "CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 #5\n" + toZero);
+    ASSERT_TRUE(aligned.finished()) << aligned.why();
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    EXPECT_NEAR(ran.cell("PRESET.PR", "1", kind == newer ? "C_OFFS" : "C"), 2, digit);
+    EXPECT_NEAR(std::abs(angleOfC(aligned) - 2), 1, exact) << "the edge lies 1 degree off now";
+    EXPECT_NEAR(ran.cell("ZERO.D", "5", "C"), angleOfC(aligned) - 2, digit);
+    EXPECT_NEAR(angleOfC(ran), angleOfC(aligned), exact) << "it shows 0 there";
+  }
   // There is no older program that could have left the table open.
   const Ran open = edge(newer, 0).run(probe(403, with(edgeWords, {{303, -1}})));
   EXPECT_EQ(open.outcome.info.exit, records::ExitState::InputMistake);

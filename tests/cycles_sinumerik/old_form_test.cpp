@@ -65,6 +65,30 @@ TEST(OldForm, MeasuresAndCorrectsAsTheCallWithArguments) {
   }
 }
 
+/// _KNUM 1011 to 1026 are the basic frames of the channel, 1051 to 1066 those of all channels, in their order from 0.
+TEST(OldForm, NamesBasicFramesByTheirNumber) {
+  simulation::Truth truth = perfectWorld();
+  place(truth, simulation::Ring(20, 60, -60), translation(origin + Vector3(0.3, 0.2, 0)));
+  for (const auto& [number, table, index] : {std::tuple(1011, "$P_CHBFR", 0),
+                                             {1012, "$P_CHBFR", 1},
+                                             {1026, "$P_CHBFR", 15},
+                                             {1051, "$P_NCBFR", 0},
+                                             {1052, "$P_NCBFR", 1},
+                                             {1066, "$P_NCBFR", 15}}) {
+    SCOPED_TRACE(number);
+    SinumerikBench bench(truth);
+    plantFrame(bench, "$P_UIFR", 1, origin);
+    bench.start({0, 0, -10});
+    bench.run("CYCLE977", {}, {}, fmt::format("_MVAR=101 _SETVAL=40 _FA=6 _TSA=2 _KNUM={}\n", number));
+    const auto& writes = bench.control.journal.cycles.back().writes;
+    ASSERT_FALSE(writes.empty());
+    for (const auto& write : writes) {
+      EXPECT_EQ(write.table, table);
+      EXPECT_TRUE(write.entry.starts_with(fmt::format("[{},", index))) << write.entry;
+    }
+  }
+}
+
 TEST(OldForm, FindsACornerByDistancesAndByCoordinates) {
   Planter plant(602);
   for (int world = 0; world < 24; ++world) {
@@ -82,6 +106,7 @@ TEST(OldForm, FindsACornerByDistancesAndByCoordinates) {
     SinumerikBench bench(truth);
     plantFrame(bench, "$P_UIFR", 1, origin);
     const double side = inside ? 15 : -15;
+    const bool zone = world % 3 != 0 && world % 4 >= 2;  // above the corner, and down at each point
     std::string call;
     if (world % 3 == 0) {  // coordinates of four points
       call = fmt::format(
@@ -89,10 +114,10 @@ TEST(OldForm, FindsACornerByDistancesAndByCoordinates) {
           "_SETV[4]={} _SETV[5]=30 _SETV[6]={} _SETV[7]=80\n",
           inside ? 117 : 118, side, side, side, side);
     } else {  // distances, three points or four
-      call = fmt::format("_MVAR={}\n_SETV[0]=80 _SETV[1]=80 _SETV[4]=1\n_STA1=0 _INCA=90 _ID=0\n",
-                         (inside ? 105 : 106) + (world % 3 == 2 ? 2 : 0));
+      call = fmt::format("_MVAR={}\n_SETV[0]=80 _SETV[1]=80 _SETV[4]=1\n_STA1=0 _INCA=90 _ID={}\n",
+                         (inside ? 105 : 106) + (world % 3 == 2 ? 2 : 0), zone ? -20 : 0);
     }
-    bench.start({side, side, -10});
+    bench.start({side, side, zone ? 10.0 : -10.0});
     bench.run("CYCLE961", {}, {}, call + "_KNUM=1 _FA=20 _TSA=8\n");
     EXPECT_NEAR(inWorkpiece(bench, part.translation()).head<2>().norm(), 0, 1e-6) << world;
     EXPECT_NEAR(bench.data("$P_UIFR", {1, "Z", "RT"}), turn, 1e-6) << world;
@@ -143,6 +168,51 @@ TEST(OldForm, CalibratesInARingAndOnASurface) {
     bench.run("CYCLE976", {}, {}, "_MVAR=10000 _SETVAL=0 _MA=3 _MD=1 _FA=6 _TSA=3\n");
     EXPECT_NEAR(bench.data("$TC_DP3", {1, 1}), length, 1e-6);
   }
+}
+
+/// 1 in the thousands: in the direction of _MA and _MD alone.
+TEST(OldForm, CalibratesInOneDirection) {
+  simulation::Truth truth = perfectWorld();
+  truth.tools[0].probe.ballRadius = 1.95;
+  place(truth, simulation::Ring(25, 60, -30), translation(origin));
+  for (const int axis : {1, 2})
+    for (const bool minus : {false, true}) {
+      SinumerikBench bench(truth);
+      plantFrame(bench, "$P_UIFR", 1, origin);
+      bench.start({0, 0, -10});
+      const auto trigger = [&](int each, bool down) {
+        const std::string name = fmt::format("$SNS_MEA_WP_TRIG_{}_DIR_AX{}", down ? "MINUS" : "PLUS", each);
+        return bench.data(name.c_str(), {0});
+      };
+      std::map<std::pair<int, bool>, double> expected;
+      for (const int each : {1, 2})
+        for (const bool down : {false, true})
+          expected[{each, down}] = trigger(each, down);
+      expected[{axis, minus}] = minus ? -1.95 : 1.95;
+      bench.run("CYCLE976", {}, {},
+                fmt::format("_MVAR=1001 _SETVAL=50 _MA={} _MD={} _FA=6 _TSA=3\n", axis, minus ? 1 : 0));
+      for (const auto& [which, value] : expected)
+        EXPECT_NEAR(trigger(which.first, which.second), value, 1e-6) << which.first << which.second;
+    }
+}
+
+/// 1 in the thousands: the spindle turns by half a turn between two touches, so that a ball beside its axis does no
+/// harm.
+TEST(OldForm, MeasuresASurfaceWithSpindleReversal) {
+  simulation::Truth truth = perfectWorld();
+  truth.tools[0].probe.tipOffset = {0.08, -0.05};
+  place(truth, simulation::Box({0, 0, -60}, {120, 100, 0}), translation(origin + Vector3(0.5, -0.25, 0)));
+  SinumerikBench bench(truth);
+  plantFrame(bench, "$P_UIFR", 1, origin);
+  const auto measured = [&](int variant, int axis) {
+    bench.start(axis == 1 ? Vector3(-12, 20, -10) : Vector3(20, -12, -10));
+    bench.run("CYCLE978", {}, {}, fmt::format("_MVAR={} _SETVAL=0 _MA={} _FA=9 _TSA=9\n", variant, axis));
+    return bench.ovr(4);
+  };
+  EXPECT_NEAR(measured(0, 1), 0.5 - 0.08, 1e-9);
+  EXPECT_NEAR(measured(0, 2), -0.25 + 0.05, 1e-9);
+  EXPECT_NEAR(measured(1000, 1), 0.5, 1e-9);
+  EXPECT_NEAR(measured(1000, 2), -0.25, 1e-9);
 }
 
 TEST(OldForm, MeasuresWithItsOwnFeed) {

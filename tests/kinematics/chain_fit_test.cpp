@@ -120,6 +120,10 @@ TEST_P(OnEveryBuild, PlantedPlacesAndDirectionsAreFound) {
     ASSERT_TRUE(fit) << format(fit.error());
     EXPECT_TRUE(fit->undetermined.empty()) << fit->undetermined.front();
     EXPECT_LT(fit->rms, 1e-8);
+    // Each sighting tells three coordinates; of each axis place and direction are found, two numbers each, and the
+    // sphere's three.
+    EXPECT_EQ(fit->degreesOfFreedom, static_cast<int>(3 * found.size() - 4 * world.planted.size() - 3));
+    EXPECT_EQ(fit->residuals.size(), found.size());
     expectSameAxes(fit->machine, world.truth);
     // A second fit finds nothing more.
     ChainFitTask again = taskOf(world, true);
@@ -129,6 +133,24 @@ TEST_P(OnEveryBuild, PlantedPlacesAndDirectionsAreFound) {
     for (std::size_t i = 0; i < second->corrections.size(); ++i) {
       EXPECT_LT((second->corrections[i].position - fit->corrections[i].position).norm(), 1e-7);
       EXPECT_LT((second->corrections[i].orientation - fit->corrections[i].orientation).norm(), 1e-7);
+    }
+  }
+}
+
+/// The sphere turns about the axes of the table, the ball about those of the head: as far away as it is from them.
+TEST_P(OnEveryBuild, CirclesAreAsWideAsTheSphereIsAway) {
+  Dice dice(42);
+  const World world = planted(dice, GetParam(), 0.3, 0.05);
+  const SphereSighting sighting{reaching(world.truth, world.sphere, {}), ball};
+  for (const auto chain : {&MachineDescription::tableChain, &MachineDescription::spindleChain}) {
+    for (const auto& link : world.truth.*chain) {
+      if (!link.axis || world.truth.axes[*link.axis].kind != machine::AxisKind::Rotary) continue;
+      const Vector3 place = chain == &MachineDescription::tableChain
+                                ? world.sphere
+                                : Vector3(machine::baseFromSpindle(world.truth, {}) * ball);
+      EXPECT_NEAR(radiusAbout(world.truth, sighting, *link.axis),
+                  link.direction.normalized().cross(place - link.point).norm(), 1e-9)
+          << world.truth.axes[*link.axis].name;
     }
   }
 }
@@ -184,6 +206,21 @@ TEST(ChainFit, FindsTheTrunnionOfTheWorkedExample) {
   const std::vector<double> quality = valuations(task, series);
   EXPECT_NEAR(quality[0], 2 * (2 - 2 * std::cos(std::numbers::pi / 2)) + 2 * (2 - std::sqrt(3)), 1e-3);
   EXPECT_NEAR(quality[1], 8, 1e-3);
+}
+
+/// Of a single axis the positions count from the first one, wherever that is: the sum of 2 - 2 cos of the angles
+/// between.
+TEST(ChainFit, ValuesASingleAxisByTheAnglesFromItsFirstPosition) {
+  Dice dice(48);
+  const World world = planted(dice, "mill4-table", 0, 0);
+  std::vector<SphereSighting> series;
+  for (const double angle : {40.0, 70.0, 130.0, 250.0}) {
+    AxisPositions axes;
+    axes[world.planted[0].axis] = angle;
+    series.push_back({reaching(world.truth, world.sphere, axes), ball});
+  }
+  const auto apart = [](double degrees) { return 2 - 2 * std::cos(degrees * std::numbers::pi / 180); };
+  EXPECT_NEAR(valuations(taskOf(world, false), {&series, 1}).at(0), apart(30) + apart(90) + apart(210), 1e-5);
 }
 
 /// Axes that turn together: an axis is worth what the less certain of the two coordinates of its place is, whatever

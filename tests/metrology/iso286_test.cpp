@@ -38,7 +38,7 @@ INSTANTIATE_TEST_SUITE_P(Iso286Part2, PublishedLimits, testing::Values(
     Published{25, "A11", 430, 300}, Published{25, "JS7", 10.5, -10.5}, Published{25, "JS9", 26, -26},
     Published{25, "J6", 8, -5}, Published{25, "J7", 12, -9}, Published{25, "J8", 20, -13}, Published{4, "J7", 6, -6},
     Published{25, "K7", 6, -15}, Published{25, "K6", 2, -11}, Published{25, "K8", 10, -23}, Published{2, "K7", 0, -10},
-    Published{100, "K7", 10, -25}, Published{300, "K6", 5, -27},
+    Published{100, "K7", 10, -25}, Published{300, "K6", 5, -27}, Published{14, "K3", 0, -3}, Published{14, "M3", -6, -9},
     Published{25, "M7", 0, -21}, Published{25, "M6", -4, -17}, Published{25, "M8", 4, -29}, Published{300, "M6", -9, -41},
     Published{300, "M7", 0, -52}, Published{2, "M7", -2, -12}, Published{25, "M9", -8, -60},
     Published{25, "N7", -7, -28}, Published{25, "N9", 0, -52}, Published{2, "N9", -4, -29}, Published{60, "N7", -9, -39},
@@ -198,6 +198,9 @@ TEST(Refusals, NameWhatIsWrong) {
   EXPECT_FALSE(isoTolerance(-10, "H7"));
   EXPECT_FALSE(isoTolerance(std::nan(""), "H7"));
   EXPECT_FALSE(isoTolerance(0.5, "H14"));
+  EXPECT_FALSE(isoTolerance(1, "H14"));
+  EXPECT_FALSE(standardTolerance(10, 19));
+  EXPECT_FALSE(standardTolerance(10, -2));
 }
 
 }  // namespace

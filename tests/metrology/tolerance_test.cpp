@@ -48,6 +48,12 @@ TEST(DimensionText, Classes) {
   expectLimits("10m", 10, 9.8, 10.2);
   expectLimits("-50m", -50, -50.3, -49.7);
   EXPECT_EQ(parseDimension("10H7")->toleranceClass, "H7");
+  for (const auto& [text, name] : {std::pair("10H7@10.01", "H7"), {"10m@Q5", "m"}, {"10 m @ Q5 ", "m"}}) {
+    const auto dimension = parseDimension(text);
+    ASSERT_TRUE(dimension) << text << format(dimension.error());
+    EXPECT_EQ(dimension->toleranceClass, name) << text;
+    EXPECT_EQ(dimension->actualParameter, name[0] == 'm' ? "Q5" : "") << text;
+  }
 }
 
 TEST(DimensionText, UnknownAndActualPositions) {
@@ -98,6 +104,7 @@ TEST(DimensionText, MistakesHaveAColumnAndAReason) {
                                  {"10H27", 3, "'H27' is not a tolerance class of ISO 286"},
                                  {"10x", 3, "'x' is not a tolerance class"},
                                  {"0.2m", 4, "ISO 2768-1 has no tolerance of class m for 0.2 mm"},
+                                 {"10@Q5+", 6, "unexpected text after the dimension"},
                                  {"1.2.3", 1, "a nominal dimension was expected"}}) {
     const auto result = parseDimension(mistake.text);
     ASSERT_FALSE(result) << mistake.text;
@@ -117,6 +124,8 @@ TEST(GeneralTolerance, AsTabulated) {
   EXPECT_EQ(generalTolerance(121, "m")->upper, 0.5);
   EXPECT_EQ(generalTolerance(1000, "c")->upper, 2);
   EXPECT_EQ(generalTolerance(4000, "m")->upper, 2);
+  EXPECT_EQ(generalTolerance(0.5, "m")->upper, 0.1) << "sizes from 0.5 mm on";
+  EXPECT_FALSE(generalTolerance(0.499, "m"));
   EXPECT_FALSE(generalTolerance(4000, "f"));
   EXPECT_FALSE(generalTolerance(2, "v"));
   EXPECT_FALSE(generalTolerance(4001, "m"));
@@ -151,6 +160,8 @@ TEST(Statements, NeedTheUncertaintyInsideTheLimits) {
   EXPECT_EQ(statement(10.0, 0.05, bounds), Statement::Conforms);
   EXPECT_EQ(statement(10.05, 0.05, bounds), Statement::Conforms);
   EXPECT_EQ(statement(10.08, 0.05, bounds), Statement::Undecided);
+  EXPECT_EQ(statement(9.92, 0.05, bounds), Statement::Undecided);
+  EXPECT_EQ(statement(9.88, 0.05, bounds), Statement::Undecided);
   EXPECT_EQ(statement(10.12, 0.05, bounds), Statement::Undecided);
   EXPECT_EQ(statement(10.2, 0.05, bounds), Statement::DoesNotConform);
   EXPECT_EQ(statement(9.8, 0.05, bounds), Statement::DoesNotConform);

@@ -18,6 +18,12 @@ TEST(TypeAEvaluation, OfFiveObservations) {
   EXPECT_NEAR(result->mean, 10.001, 1e-14);
   EXPECT_NEAR(result->standardDeviation, std::sqrt(2.5e-6), 1e-14);
   EXPECT_NEAR(result->standardUncertainty, std::sqrt(0.5e-6), 1e-14);
+  EXPECT_EQ(result->degreesOfFreedom, 4);
+  // Two are enough: half of their distance is the standard uncertainty of their mean.
+  const auto two = typeA(std::array<double, 2>{10.002, 10.008});
+  ASSERT_TRUE(two);
+  EXPECT_NEAR(two->standardUncertainty, 0.003, 1e-14);
+  EXPECT_EQ(two->degreesOfFreedom, 1);
   EXPECT_FALSE(typeA(std::array<double, 1>{1.0}));
 }
 

@@ -54,6 +54,10 @@ TEST(MeasureMilledTool, TurningItsLongestAndWidestToothCount) {
     EXPECT_NEAR(long_.ovr(9), long_.ovr(8) - bench.believed(2).length, 1e-9);
     EXPECT_NEAR(long_.written("$TC_DP3[2,1]"), long_.ovr(8), 1e-6);
     EXPECT_EQ(long_.ovi(0), 1);
+    // Each touch is expected where the tool as it is believed touches.
+    for (const control::TouchRecord& touch : long_.cycle().touches)
+      EXPECT_NEAR(touch.direction.dot(touch.surface - touch.target), bench.believed(2).length - long_.ovr(8), 0.1);
+    ASSERT_FALSE(long_.cycle().touches.empty());
     EXPECT_EQ(long_.ovi(8), 2);
 
     const ToolRun wide =

@@ -33,6 +33,25 @@ std::string cycles(int mode, double unit, bool old) {
       mode, 60 / unit);
 }
 
+/// What the record of a touch says of the place that was expected: there the tool as it is believed would touch. It is
+/// longer by 0.25 mm and narrower by as much, and its teeth run out by up to 0.04 mm.
+TEST(ToolTouches, AreExpectedWhereTheBelievedToolTouches) {
+  for (const ControlKind control : {ControlKind::TNC640, ControlKind::iTNC530}) {
+    const Mill mill(control);
+    const Ran ran = mill.run(cycles(0, 1, false));
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    std::size_t touched = 0;
+    for (const control::TouchRecord& touch : ran.outcome.journal.cycles.back().touches) {
+      if (touch.outcome != "touched") continue;
+      ++touched;
+      const Vector3 off = touch.surface - touch.target;
+      EXPECT_LT(off.norm(), 0.35) << touched;
+      EXPECT_LT((off - touch.direction * off.dot(touch.direction)).norm(), 1e-6) << touched;
+    }
+    EXPECT_GE(touched, 2U);
+  }
+}
+
 TEST(ToolUnits, AToolIsAsLongInInches) {
   for (const ControlKind control : {ControlKind::TNC640, ControlKind::iTNC530}) {
     for (const bool old : {false, true}) {
