@@ -80,6 +80,7 @@ TEST(OldForm, NamesBasicFramesByTheirNumber) {
     plantFrame(bench, "$P_UIFR", 1, origin);
     bench.start({0, 0, -10});
     bench.run("CYCLE977", {}, {}, fmt::format("_MVAR=101 _SETVAL=40 _FA=6 _TSA=2 _KNUM={}\n", number));
+    ASSERT_FALSE(bench.control.journal.cycles.empty());
     const auto& writes = bench.control.journal.cycles.back().writes;
     ASSERT_FALSE(writes.empty());
     for (const auto& write : writes) {

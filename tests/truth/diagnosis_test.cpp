@@ -462,6 +462,23 @@ TEST(Travel, WarnsOfBlocksThatComeNearAnEnd) {
   EXPECT_THAT(run(world, program).truth().nearEnds, IsEmpty()) << "no limit, no warnings";
 }
 
+/// C of the table turns endlessly: it has no ends to come near to.
+TEST(Travel, TellsNothingOfAxesWithoutEnds) {
+  World world;
+  world.origin = {0, 0, -400};
+  world.part = plate("{ z = -400 }");
+  world.more = "[machine]\nname = \"mill5-table-table\"\nclearance = 12\n";
+  const Told told = run(world, "TOOL CALL 1 Z\nL Z-20 R0 FMAX M91\nL A+110 FMAX\nL A+0 C+350 FMAX\nL C-10 FMAX\n");
+  ASSERT_TRUE(told.finished()) << told.why();
+  std::vector<std::string> axes;
+  for (const records::TravelMargin& each : told.truth().travel)
+    axes.push_back(each.axis);
+  EXPECT_THAT(axes, ::testing::UnorderedElementsAre("X", "Y", "Z", "A"));
+  EXPECT_FALSE(told.truth().nearEnds.empty()) << "A ends at 120 degrees";
+  for (const records::TravelMargin& each : told.truth().nearEnds)
+    EXPECT_EQ(each.axis, "A");
+}
+
 TEST(Travel, TellsHowNearAnAxisCameToItsEnd) {
   World world;
   world.origin = {0, 0, -480};

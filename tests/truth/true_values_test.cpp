@@ -1,6 +1,11 @@
 #include <gmock/gmock.h>
 
+#include <unistd.h>
+
+#include <array>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
 
@@ -189,6 +194,8 @@ TEST(TrueValues, OfACornerOfThreePointsAreThoseOfItsFaces) {
   const double x = 0.4, y = -0.3, c = 0.7;
   world.part = plate(fmt::format("{{ x = {}, y = {}, z = -480, c = {} }}", x, y, c));
   const Vector3 planted = translation({x, y, 0}) * probewright::rotation(Vector3::UnitZ(), c) * Vector3(-40, -30, 0);
+  // Its axes are not square: the control sees the sides at an angle that they do not have.
+  world.more = "[[errors.squareness]]\naxis = \"X\"\ntowards = \"Y\"\ndegrees = 0.05\n";
   // Two points on the side towards -Y and one on that towards -X, and the other way round: the first edge is along Y
   // then.
   for (const auto& [points, turned] : {std::pair("-20,-45,20,-45,-55,10", 0.0), {"-55,10,-55,-10,20,-45", -90.0}}) {
@@ -265,6 +272,113 @@ TEST(TrueValues, OfAConeAreThoseAtTheHeightOfTheTouches) {
   EXPECT_NEAR(told.value("Q153"), 40 + 8 + 3 * std::sin(std::atan(0.5)), 1e-4);
   EXPECT_NEAR(told.value("Q151"), 0, exact);
   EXPECT_EQ(told.of("Q153")->shape, "cone");
+}
+
+/// At a height the sphere is as wide as its circle there: the ball of 3 mm, whose centre is 6 mm above that of the
+/// sphere, touches it in line with both centres.
+TEST(TrueValues, OfASphereAreThoseOfItsCircleAtTheHeightOfTheTouches) {
+  World world;
+  world.origin = {0, 0, -480};
+  world.part = "[part]\npose = { x = 0.3, z = -500 }\n[[part.feature]]\nshape = \"sphere\"\ndiameter = 40\n";
+  for (const double above : {6.0, -2.0}) {
+    const Told told =
+        run(world, fmt::format("TOOL CALL 1 Z\nL Z+50 R0 FMAX\nTCH PROBE 422 STUD ~\nQ273=+0 ~\nQ274=+0 ~\n"
+                               "Q262=+40 ~\nQ325=+0 ~\nQ247=+90 ~\nQ261={:+} ~\nQ320=+2 ~\nQ260=+20 ~\n"
+                               "Q301=+1 ~\nQ277=+60 ~\nQ278=+20 ~\nQ279=+0.5 ~\nQ280=+0.5 ~\nQ281=+0 ~\n"
+                               "Q309=+0 ~\nQ330=+0\n",
+                               -20 + above));
+    ASSERT_TRUE(told.finished()) << told.why();
+    const double height = above * 20 / 23;
+    EXPECT_NEAR(told.value("Q153"), 2 * std::sqrt(400 - height * height), 1e-5) << above;
+    EXPECT_NEAR(told.value("Q151"), 0.3, exact) << above;
+    EXPECT_EQ(told.of("Q153")->shape, "sphere");
+  }
+}
+
+/// A ball that is believed beside the spindle's axis shifts what is measured of a slot, not where it is.
+TEST(TrueValues, OfASlotAreThoseOfItsWalls) {
+  for (const double a : {0.0, 1.0}) {
+    World world;
+    world.origin = {0, 0, -480};
+    world.probe = "believed_tip_offset = [0.02, -0.03]\n";
+    world.part = fmt::format(
+        "[part]\npose = {{ y = 0.4, z = -480, a = {} }}\n[[part.feature]]\nshape = \"box\"\ncentre = [0, 0, -40]\nsize "
+        "= [160, "
+        "140, 40]\n[[part.feature]]\nshape = \"pocket\"\nsize = [100, 14.02]\ndepth = 20\ncorner_radius = 2\n",
+        a);
+    const Told told =
+        run(world,
+            "TOOL CALL 1 Z\nL Z+50 R0 FMAX\nTCH PROBE 408 SLOT ~\nQ321=+0 ~\nQ322=+0 ~\nQ311=+14 ~\nQ272=+2 ~\n"
+            "Q261=-8 ~\nQ320=+0 ~\nQ260=+40 ~\nQ301=+0 ~\nQ305=+0 ~\nQ405=+0 ~\nQ303=+1 ~\nQ381=+0 ~\nQ382=+0 ~\n"
+            "Q383=+0 ~\nQ384=+0 ~\nQ333=+0\n");
+    ASSERT_TRUE(told.finished()) << told.why();
+    // It leans about X: 8 mm below the origin its middle lies that much further in +Y.
+    EXPECT_NEAR(told.value("Q157"), 0.4 + 8 * std::tan(radiansFromDegrees(a)), 1e-4) << a;
+    EXPECT_NEAR(told.value("Q166"), 14.02, exact) << a;
+    EXPECT_GT(std::abs(told.measured("Q157") - told.value("Q157")), 0.01) << a;
+  }
+}
+
+/// Triangles do not tell a face: the true value is that of the points that were touched, with a ball that is believed
+/// 0.01 mm too large as with one that is known.
+TEST(TrueValues, OfTrianglesAreThoseOfTheTouchedPoints) {
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / fmt::format("true-values-{}.stl", getpid());
+  {
+    // A box of 80 x 60 x 20 with its top at Z0, two triangles a side, corners in the order that looks outwards.
+    const Vector3 low(-40, -30, -20), high(40, 30, 0);
+    std::ofstream out(file);
+    out << "solid box\n";
+    for (int axis = 0; axis < 3; ++axis)
+      for (const bool upper : {false, true}) {
+        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        const auto corner = [&](bool alongU, bool alongV) {
+          Vector3 at;
+          at[axis] = upper ? high[axis] : low[axis];
+          at[u] = alongU ? high[u] : low[u];
+          at[v] = alongV ? high[v] : low[v];
+          return at;
+        };
+        std::array<Vector3, 4> square{corner(false, false), corner(true, false), corner(true, true),
+                                      corner(false, true)};
+        if (!upper) std::swap(square[1], square[3]);
+        Vector3 normal = Vector3::Zero();
+        normal[axis] = upper ? 1 : -1;
+        for (const int first : {1, 2}) {
+          out << fmt::format("facet normal {} {} {}\nouter loop\n", normal.x(), normal.y(), normal.z());
+          for (const int at : {0, first, first + 1}) {
+            const Vector3& point = square[static_cast<std::size_t>(at)];
+            out << fmt::format("vertex {} {} {}\n", point.x(), point.y(), point.z());
+          }
+          out << "endloop\nendfacet\n";
+        }
+      }
+    out << "endsolid box\n";
+  }
+  for (const double believed : {3.0, 3.01}) {
+    World world;
+    world.origin = {0, 0, -480};
+    world.believedRadius = believed;
+    world.part = fmt::format("[part]\nfile = \"{}\"\npose = {{ y = 0.4, z = -480, a = 1.2 }}\n", file.string());
+    const Told front =
+        run(world,
+            "TOOL CALL 1 Z\nL Z+50 R0 FMAX\nTCH PROBE 427 COORDINATE ~\nQ263=+0 ~\nQ264=-30 ~\nQ261=-8 ~\n"
+            "Q320=+2 ~\nQ272=+2 ~\nQ267=+1 ~\nQ260=+20 ~\nQ281=+0 ~\nQ288=+99 ~\nQ289=-99 ~\nQ309=+0 ~\nQ330=+0\n");
+    ASSERT_TRUE(front.finished()) << front.why();
+    const double a = radiansFromDegrees(1.2);
+    // The front side leans: y cos a + (z + ...) sin a = -30 about the part's origin, at the height of the ball's
+    // centre.
+    EXPECT_NEAR(front.value("Q160"), 0.4 - (30 - 8 * std::sin(a)) / std::cos(a), 1e-3) << believed;
+    EXPECT_EQ(front.of("Q160")->basis, records::TruthBasis::Points);
+    const Told plane =
+        run(world,
+            "TOOL CALL 1 Z\nL Z+50 R0 FMAX\nTCH PROBE 431 PLANE ~\nQ263=+30 ~\nQ264=-25 ~\nQ294=+0 ~\n"
+            "Q265=-30 ~\nQ266=-25 ~\nQ295=+0 ~\nQ296=+30 ~\nQ297=+25 ~\nQ298=+0 ~\nQ320=+2 ~\nQ260=+20 ~\n"
+            "Q281=+0\n");
+    ASSERT_TRUE(plane.finished()) << plane.why();
+    EXPECT_NEAR(std::abs(plane.value("Q170")), 1.2, 1e-4) << believed;
+  }
+  std::filesystem::remove(file);
 }
 
 /// CYCLE998 tells the angles of a plane about both axes from three points.

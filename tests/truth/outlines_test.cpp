@@ -1,0 +1,126 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "truth/told.hpp"
+
+/// What is drawn of the truth: the feature that a cycle looked for, as it was expected and as it is.
+namespace probewright::truth::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string probe = "TOOL CALL 1 Z\nL Z+50 R0 FMAX\n";
+
+/// A box with its top at the part's Z0, and what is in or on it.
+std::string boxWith(const std::string& features, const std::string& pose) {
+  return "[part]\nname = \"box\"\npose = " + pose +
+         "\n[[part.feature]]\nshape = \"box\"\ncentre = [0, 0, -40]\nsize = [160, 140, 40]\n" + features;
+}
+
+std::string textsOf(const Told& told) {
+  std::string text;
+  for (const records::Diagnosis& known : told.truth().diagnoses)
+    for (const std::string& sentence : known.texts)
+      text += sentence + "\n";
+  return text;
+}
+
+void expectOutline(const records::Ghost& ghost, const std::vector<Vector3>& corners) {
+  EXPECT_EQ(ghost.shape, "outline");
+  ASSERT_EQ(ghost.outline.size(), corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    EXPECT_LT((ghost.outline[i] - corners[i]).norm(), 1e-3) << i << ": " << ghost.outline[i].transpose();
+}
+
+/// Expected 20 mm further out; each side reaches as far as its second touch, 50 mm along the first and 55 along the
+/// other.
+TEST(Outlines, OfACornerRunAlongItsSides) {
+  World world;
+  world.origin = {0, 0, -480};
+  world.part = plate("{ z = -480, c = 2 }");
+  const Told told = run(world, probe +
+                                   "TCH PROBE 414 PRESET OUTSIDE CORNER ~\nQ263=-40 ~\nQ264=-50 ~\nQ326=+30 ~\n"
+                                   "Q296=-60 ~\nQ297=-25 ~\nQ327=+30 ~\nQ261=-8 ~\nQ320=+0 ~\nQ260=+20 ~\nQ301=+0 ~\n"
+                                   "Q304=+0 ~\nQ305=+1 ~\nQ331=+0 ~\nQ332=+0 ~\nQ303=+1 ~\nQ381=+0 ~\nQ382=+0 ~\n"
+                                   "Q383=+0 ~\nQ384=+0 ~\nQ333=+0\n");
+  ASSERT_FALSE(told.finished());
+  ASSERT_FALSE(told.truth().diagnoses.empty());
+  const records::Diagnosis& known = told.truth().diagnoses.back();
+  ASSERT_TRUE(known.expected && known.found);
+  expectOutline(*known.expected, {{-10, -50, -488}, {-60, -50, -488}, {-60, 5, -488}});
+  const Pose turned = translation({0, 0, -488}) * probewright::rotation(Vector3::UnitZ(), 2);
+  expectOutline(*known.found,
+                {turned * Vector3(10, -30, 0), turned * Vector3(-40, -30, 0), turned * Vector3(-40, 25, 0)});
+}
+
+/// Expected at X10 Y-5, truly at X16 Y-9.
+TEST(Outlines, OfAPocketAreClosed) {
+  World world;
+  world.origin = {0, 0, -480};
+  world.part = boxWith("[[part.feature]]\nshape = \"pocket\"\nsize = [40, 30]\ndepth = 20\ncorner_radius = 3\n",
+                       "{ x = 16, y = -9, z = -480 }");
+  const Told told = run(world, probe +
+                                   "TCH PROBE 423 POCKET ~\nQ273=+10 ~\nQ274=-5 ~\nQ282=+40 ~\nQ283=+30 ~\nQ261=-8 ~\n"
+                                   "Q320=+0 ~\nQ260=+20 ~\nQ301=+0 ~\nQ284=+41 ~\nQ285=+39 ~\nQ286=+31 ~\nQ287=+29 ~\n"
+                                   "Q279=+1 ~\nQ280=+1 ~\nQ281=+0 ~\nQ309=+0 ~\nQ330=+0\n");
+  ASSERT_FALSE(told.finished());
+  EXPECT_THAT(textsOf(told), HasSubstr("the pocket of 40.000 x 30.000 mm has its centre at X+16.000 Y-9.000 Z-8.000"));
+  EXPECT_THAT(textsOf(told), HasSubstr(", 7.211 mm from Q273/Q274"));
+  const records::Diagnosis& known = told.truth().diagnoses.back();
+  ASSERT_TRUE(known.expected && known.found);
+  for (const auto& [ghost, x, y] : {std::tuple(&*known.expected, 10, -5), {&*known.found, 16, -9}})
+    expectOutline(*ghost, {{x + 20.0, y + 15.0, -488},
+                           {x - 20.0, y + 15.0, -488},
+                           {x - 20.0, y - 15.0, -488},
+                           {x + 20.0, y - 15.0, -488},
+                           {x + 20.0, y + 15.0, -488}});
+}
+
+/// Of two holes that one of about the expected size is meant, though it is further away.
+TEST(Outlines, OfAHoleAreThoseOfTheOneOfThatSize) {
+  World world;
+  world.origin = {0, 0, -480};
+  world.part = boxWith(
+      "[[part.feature]]\nshape = \"hole\"\ndiameter = 12\ncentre = [-5, 0, 0]\n"
+      "[[part.feature]]\nshape = \"hole\"\ndiameter = 30.01\ncentre = [50, 40, 0]\n",
+      "{ z = -480 }");
+  const Told told = run(world, probe +
+                                   "TCH PROBE 412 PRESET ~\nQ321=-10 ~\nQ322=-4 ~\nQ262=+30 ~\nQ325=+0 ~\nQ247=+90 ~\n"
+                                   "Q261=-5 ~\nQ320=+2 ~\nQ260=+20 ~\nQ301=+0 ~\nQ305=+1 ~\nQ331=+0 ~\nQ332=+0 ~\n"
+                                   "Q303=+1 ~\nQ381=+0 ~\nQ382=+0 ~\nQ383=+0 ~\nQ384=+0 ~\nQ333=+0\n");
+  ASSERT_FALSE(told.finished());
+  EXPECT_THAT(textsOf(told), HasSubstr("the hole of 30.010 mm has its centre at X+50.000 Y+40.000 Z-5.000 of the"));
+  EXPECT_THAT(textsOf(told), HasSubstr("74.404 mm from Q321/Q322"));
+}
+
+/// A SINUMERIK tries five times; what is said of the alarm is said once.
+TEST(Outlines, OfSeveralAttemptsAreToldOnce) {
+  World world;
+  world.control = "840Dsl";
+  world.origin = {0, 0, -480};
+  world.part = plate("{ z = -480 }");
+  const Told told =
+      run(world, "T1 D1\nM6\nG54 G17 G0 X0 Y-57 Z20\nG1 Z-8 F2000\nCYCLE978(0,,,1,-45,6,9,2,1,1,,,,,,1)\n");
+  ASSERT_FALSE(told.finished());
+  ASSERT_EQ(told.truth().diagnoses.size(), 1U);
+  EXPECT_THAT(textsOf(told), HasSubstr("mm further in +Y"));
+}
+
+/// A ball whose radius is believed 0.005 mm too large: the control sees the surface as much within the part.
+TEST(TouchErrors, CountOutwards) {
+  World world;
+  world.origin = {0, 0, -480};
+  world.believedRadius = 3.005;
+  world.part = plate("{ z = -480 }");
+  const std::string front =
+      "TCH PROBE 427 COORDINATE ~\nQ263=+0 ~\nQ264=-30 ~\nQ261=-8 ~\nQ320=+2 ~\nQ272=+2 ~\nQ267=+1 ~\nQ260=+20 ~\n"
+      "Q281=+0 ~\nQ288=+99 ~\nQ289=-99 ~\nQ309=+0 ~\nQ330=+0\n";
+  const Told told = run(world, probe + front);
+  ASSERT_TRUE(told.finished()) << told.why();
+  ASSERT_EQ(told.truth().cycles.back().touches.size(), 1U);
+  EXPECT_NEAR(told.truth().cycles.back().touches.front()->error, -0.005, 1e-6);
+}
+
+}  // namespace
+}  // namespace probewright::truth::testing
