@@ -239,7 +239,8 @@ TEST(InitText, NumbersSurvive) {
   EXPECT_EQ(parseNumber("'hAf'"), 0xaf);
   EXPECT_EQ(parseNumber("+2.5EX2"), 250);
   EXPECT_EQ(parseNumber("1ex-7"), 1e-7);
-  for (const char* bad : {"", "EX", "1EX", "'H'", "''", "'", "0x10", "1e5", "nan", "inf", "+-1"}) {
+  for (const char* bad : {"", "EX", "1EX", "'H'", "''", "'", "0x10", "1e5", "nan", "inf", "+-1", "'B2'", "'HG'",
+                          "'HFg'", "'D1'", "1EX400"}) {
     EXPECT_EQ(parseNumber(bad), std::nullopt) << bad;
   }
 }

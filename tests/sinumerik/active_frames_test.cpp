@@ -20,6 +20,14 @@ TEST(SinumerikActiveFrames, DataActWhenTheyAreActivated) {
   EXPECT_NEAR(world.r(6), 10 - 100.25, 1e-12);
 }
 
+/// MD 28080 counts G500, too: with 6 there are G54 to G57 and G505.
+TEST(SinumerikActiveFrames, AreAsManyAsTheMachineHas) {
+  World world;
+  world.run("$MC_MM_NUM_USER_FRAMES=6\n$P_UIFR[5]=CTRANS(X,3)\nG505\nR1=$P_IFRAME[X,TR]\n");
+  EXPECT_EQ(world.r(1), 3);
+  EXPECT_EQ(World().alarm("$MC_MM_NUM_USER_FRAMES=6\nG506\n"), "18310");
+}
+
 TEST(SinumerikActiveFrames, TheActiveSettableFrameIsWrittenWithoutItsData) {
   World world;
   world.run(
