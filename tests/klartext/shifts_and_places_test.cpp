@@ -13,6 +13,17 @@ std::string messageOf(const RunResult& result) {
   return result.diagnostics.empty() ? std::string("none") : result.diagnostics.front().message;
 }
 
+/// FN 25: the place with the first value gets the second one as its coordinate.
+TEST(Shifts, Fn25SetsThePresetOfAnAxis) {
+  World world;
+  expectFinished(world.run("TOOL CALL 1 Z\nL X+10 Y+50 Z-100 R0 FMAX\nFN 25: PRESET = Y/+50/+100\nL Y+100 R0 FMAX\n"));
+  EXPECT_NEAR(world.machine->position()[1], 50, 1e-9);
+  EXPECT_NEAR(world.machine->position()[0], 10, 1e-9);
+  expectFinished(world.run("FN 25: PRESET = X/+10/-2\nL X+0 Y+0 R0 FMAX\n"));
+  EXPECT_NEAR(world.machine->position()[0], 12, 1e-9);
+  EXPECT_NEAR(world.machine->position()[1], -50, 1e-9);
+}
+
 TEST(Shifts, OfRotaryAxesMoveTheirZero) {
   World world("mill5-table-table");
   expectFinished(

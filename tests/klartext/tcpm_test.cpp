@@ -117,6 +117,19 @@ TEST(Tcpm, SpaceAnglesCountInTheTiltedPlaneAndKeepWhatABlockLeavesOut) {
   expectFinished(table.run("TOOL CALL 5 Z F2000\nFUNCTION TCPM F TCP AXIS SPAT PATHCTRL AXIS\nL A+0 B+10 C+0 F2000\n"));
   const Vector3 wanted = Eigen::AngleAxisd(10 * std::numbers::pi / 180, Vector3::UnitY()) * Vector3::UnitZ();
   EXPECT_NEAR((toolDirection(table, table.machine->position()) - wanted).norm(), 0, 1e-7);
+  // Where the preset turns C by 30 degrees the workpiece system lies on the table so that it is straight there.
+  World turned = atStart("mill5-table-table");
+  control::heidenhain::Control::PresetChange change;
+  change.rotaryOffset[*turned.machine->description().axisIndex("C")] = 30;
+  turned.control->writePreset(turned.control->coordinates.preset.row, change);
+  expectFinished(turned.run(toStart + "FUNCTION TCPM F TCP AXIS SPAT PATHCTRL AXIS\nL A+20 B+10 C+0 F2000\n"));
+  machine::AxisPositions straight;
+  straight[*turned.machine->description().axisIndex("C")] = 30;
+  const Vector3 leaning = Eigen::AngleAxisd(10 * std::numbers::pi / 180, Vector3::UnitY()) *
+                          (Eigen::AngleAxisd(20 * std::numbers::pi / 180, Vector3::UnitX()) * Vector3::UnitZ());
+  const Vector3 onTurnedTable =
+      machine::baseFromTable(turned.machine->description(), straight).linear().transpose() * leaning;
+  EXPECT_NEAR((toolDirection(turned, turned.machine->position()) - onTurnedTable).norm(), 0, 1e-7);
   // Axes that do not reach: A of the trunnion ends at 120 degrees.
   World world = atStart("mill5-table-table");
   const RunResult result = world.run(toStart + "FUNCTION TCPM F TCP AXIS SPAT PATHCTRL AXIS\nL A+130 B+0 C+0 F2000\n");

@@ -27,6 +27,23 @@ TEST(Tilting, TiltedPlanesPointTheToolAlongTheirNormal) {
   }
 }
 
+/// PLANE AXIAL names positions of the axes as the program counts them: from the offsets of the preset. I adds to where
+/// they stand.
+TEST(Tilting, AxialPlanesCountFromTheOffsetsOfThePreset) {
+  World world("mill5-table-table");
+  const std::size_t a = *world.machine->description().axisIndex("A"), c = *world.machine->description().axisIndex("C");
+  control::heidenhain::Control::PresetChange change;
+  change.rotaryOffset[c] = 30;
+  world.control->writePreset(world.control->coordinates.preset.row, change);
+  expectFinished(world.run("TOOL CALL 1 Z\nPLANE AXIAL A+10 C+20 TURN F5000\n"));
+  EXPECT_NEAR(world.machine->position()[a], 10, 1e-9);
+  EXPECT_NEAR(world.machine->position()[c], 50, 1e-9);
+  expectFinished(world.run("PLANE AXIAL IA+5 IC-10 TURN F5000\n"));
+  EXPECT_NEAR(world.machine->position()[a], 15, 1e-9);
+  EXPECT_NEAR(world.machine->position()[c], 40, 1e-9);
+  EXPECT_TRUE(near(world.control->channel.toolAxis().vector(), Vector3::UnitZ(), 1e-9));
+}
+
 TEST(Tilting, PlaneDefinitionsAgree) {
   const auto tiltOf = [](const std::string& block) {
     World world("mill5-table-table");

@@ -298,6 +298,7 @@ TEST(SinumerikMotion, ArcsStayOnTheirCircle) {
       {"G3 X-10 Y0 AR=180", {0, 0, 0}, {-10, 0, 0}, 10, 180},
       {"G3 X0 Y10 Z6 I-10 J0 TURN=1", {0, 0, 0}, {0, 10, 6}, 10, 450},
       {"CIP X-10 Y0 I1=0 J1=10 K1=0", {0, 0, 0}, {-10, 0, 0}, 10, 180},
+      {"CIP X-10 Y0 I1=IC(-10) J1=IC(10) K1=0", {0, 0, 0}, {-10, 0, 0}, 10, 180},
       {"G111 X0 Y0\nG3 AP=90 RP=10", {0, 0, 0}, {0, 10, 0}, 10, 90},
       {"G111 X10 Y5\nG2 AP=0 RP=5", {10, 5, 0}, {15, 5, 0}, 5, -270},
   };
@@ -442,6 +443,34 @@ TEST(SinumerikMotion, RotaryAxesTurnAsTold) {
   EXPECT_EQ(world.machine.position()[c], 710);
   world.run("C=IC(-710)\n");
   EXPECT_EQ(world.machine.position()[c], 0);
+  // The other way round than the nearest.
+  world.run("C=ACN(30)\n");
+  EXPECT_EQ(world.machine.position()[c], -330);
+  world.run("C=ACP(20)\n");
+  EXPECT_EQ(world.machine.position()[c], 20);
+  world.run("G91 C15\nG90\n");
+  EXPECT_EQ(world.machine.position()[c], 35);
+  // A zero offset of the axis: the program counts from there, the machine does not.
+  world.control.data.load({"$P_UIFR", {1, "C", "TR"}}, 25.0);
+  world.run("G54\nC10\nR1=$AA_IW[C] R2=$AA_IM[C]\n");
+  EXPECT_EQ(world.machine.position()[c], 35);
+  EXPECT_NEAR(world.r(1), 10, 1e-12);
+  EXPECT_NEAR(world.r(2), 35, 1e-12);
+}
+
+/// From X10 Y5: the angle counts from the 1st axis of the plane, and so does AP; the pole of G110 counts from where the
+/// tool stands, that of G112 from the last pole.
+TEST(SinumerikMotion, AnglesCountFromWhereTheToolStands) {
+  const double root = std::sqrt(3);
+  for (const auto& [text, end] : {std::pair("G1 X20 ANG=30 F1000", Vector3(20, 5 + 10 / root, 0)),
+                                  {"G1 Y8 ANG=30 F1000", {10 + 3 * root, 8, 0}},
+                                  {"G110 AP=30 RP=4\nG0 AP=90 RP=2", {10 + 2 * root, 9, 0}},
+                                  {"G111 X1 Y2\nG112 AP=60 RP=4\nG0 AP=0 RP=2", {5, 2 + 2 * root, 0}},
+                                  {"G111 AP=60 RP=4\nG0 AP=0 RP=2", {4, 2 * root, 0}}}) {
+    World world;
+    world.run(std::string("G0 X10 Y5\n") + text + "\n");
+    EXPECT_LT((lastTip(world) - end).norm(), 1e-9) << text << ": " << lastTip(world).transpose();
+  }
 }
 
 TEST(SinumerikMotion, DwellSpindleAndSwitches) {
@@ -449,6 +478,8 @@ TEST(SinumerikMotion, DwellSpindleAndSwitches) {
   world.run("G4 F2.5\nS60 M3\nG4 S3\nSPOS=90\n");
   EXPECT_NEAR(world.machine.seconds(), 2.5 + 3, 1e-12);
   EXPECT_EQ(world.machine.spindle().angle, 90);
+  world.run("SPOS=IC(-20)\nSPOS=IC(35)\n");
+  EXPECT_NEAR(world.machine.spindle().angle, 105, 1e-12);
   world.run("DEF INT ERR=5\nWRITE(ERR,\"/_N_WKS_DIR/LOG_MPF\",\"x=\"<<1)\nWRITE(ERR,\"LOG_MPF\",\"y\")\nR1=ERR\nM0\n");
   EXPECT_EQ(world.control.panel.files().at("LOG_MPF"), "x=1\ny\n");
   EXPECT_EQ(world.r(1), 0);

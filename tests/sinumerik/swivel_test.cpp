@@ -52,6 +52,17 @@ TEST(Swivel, TheToolStandsSquareToThePlane) {
   }
 }
 
+/// Mode 192: the angles are those of the rotary axes, counted from the zero offset as all that the program says.
+TEST(Swivel, AnglesOfAxesCountFromTheZeroOffset) {
+  World world("mill5-table-table");
+  const machine::MachineDescription& machine = world.machine.description();
+  world.control.data.load({"$P_UIFR", {1, "C", "TR"}}, 25.0);
+  world.run("T2 M6\nG54\nCYCLE800(0,\"\",0,192,0,0,0,10,20,0,0,0,0,-1)\n");
+  EXPECT_NEAR(world.machine.position()[*machine.axisIndex("A")], 10, 1e-9);
+  EXPECT_NEAR(world.machine.position()[*machine.axisIndex("C")], 45, 1e-9);
+  EXPECT_LT((world.control.channel.toolAxis() - ProgramWay(0, 0, 1)).norm(), 1e-9);
+}
+
 /// _FR = 1 retracts Z, 2 also X and Y, to where the data set says; without an entry to the end of Z and to where tools
 /// are changed.
 TEST(Swivel, RetractsToThePositionsOfTheDataSet) {

@@ -21,7 +21,11 @@ TEST(ToolOrientation, VectorsPointTheTool) {
     World world(name);
     world.control.data.load({"$P_UIFR", {1, "Z", "TR"}}, -300.0);
     world.run("T1 M6 D1\nG54\nG0 X0 Y0 Z100\nTRAORI\n");
-    for (int i = 0; i < 15; ++i) {
+    for (int i = 0; i < 30; ++i) {
+      if (i == 15) {  // and where the zero offset turns the table
+        world.control.data.load({"$P_UIFR", {1, "C", "TR"}}, 25.0);
+        world.run("G54\n");
+      }
       const Vector3 direction = length(random) * Vector3(slope(random), slope(random), 1);
       const Vector3 target(place(random), place(random), 60 + place(random) / 4);
       world.run(fmt::format("G1 X{} Y{} Z{} A3={} B3={} C3={} F1000\n", target.x(), target.y(), target.z(),
