@@ -30,7 +30,7 @@ Lobed lobed(Dice& dice, double clearance = 1) {
   const double length = written(dice.between(80, 140), 4), ball = written(dice.between(1, 3), 4);
   bench.probeOf(length, ball);
   simulation::TrueProbe& stylus = bench.trueProbe();
-  stylus.tipOffset = {dice.between(-0.1, 0.1), dice.between(-0.1, 0.1)};
+  stylus.tipOffset = {dice.between(-0.4, 0.4), dice.between(-0.4, 0.4)};
   stylus.pretravel = dice.between(0.01, 0.02);
   stylus.lobing = dice.between(0.006, 0.01);
   stylus.lobingPhase = dice.between(0, 120);
