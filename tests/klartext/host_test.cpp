@@ -318,6 +318,14 @@ TEST(Host, ApproachAndDepartureAreTangential) {
   const Vector3 centre(-15, 0, 0);
   EXPECT_NEAR((way[1] - centre).norm(), 10, 1e-9);
   EXPECT_NEAR((way[1] - way[0]).dot(way[1] - centre), 0, 1e-9);
+  // It stays on the arc until it is at the contour, piece by piece, and goes on along it.
+  std::size_t at = 1;
+  for (; at + 1 < way.size() && !near(way[at], {-5, 0, 0}); ++at) {
+    EXPECT_NEAR((way[at] - centre).norm(), 10, 1e-9) << at;
+    EXPECT_LT((way[at + 1] - way[at]).norm(), 2) << at;
+  }
+  ASSERT_LT(at + 1, way.size());
+  EXPECT_TRUE(near(way[at + 1], {-5, 30, 0}));
   EXPECT_TRUE(near(way.back(), {-40, 60, 0}));
 }
 

@@ -52,6 +52,9 @@ TEST(SinumerikMotion, FeedMustBeProgrammed) {
   EXPECT_EQ(world.alarm("G95 G1 X10 F0.1\n"), "10860");
   world.run("S1000 M3 G95 F0.2\nG1 X20\n");
   EXPECT_EQ(world.machine.moves.back().feed.perMinute, 200);
+  // A taper thread from X20 Z0: 2 mm along Z with each of 1000 turns a minute, 20 mm down and 10 aside.
+  world.run("G33 X30 Z-20 K2\nG95 G1 X20\n");
+  EXPECT_NEAR(world.machine.moves[world.machine.moves.size() - 2].feed.perMinute, 2000 * std::sqrt(500) / 20, 1e-9);
   EXPECT_EQ(world.alarm("X1 Q5\n"), "12080") << "the machine has no axis Q";
   for (const char* block : {"TRANS U5", "ATRANS X1 B2", "SCALE Q2", "MIRROR U0", "G58 U3"})
     EXPECT_EQ(world.alarm(fmt::format("{}\n", block)), "12080") << block;
@@ -197,6 +200,10 @@ TEST(SinumerikMotion, FunctionsAreChosenByTheirPlaceInTheGroup) {
   EXPECT_EQ(world.machine.moves.back().feed.perMinute, 100);
   world.run("G[8]=1\nG0 X1\n");
   EXPECT_EQ(world.machine.moves.back().to[0], 1);
+  for (const auto& [code, number] : {std::pair(94, 2), {95, 3}, {961, 7}, {971, 8}, {962, 11}, {972, 12}, {973, 13}}) {
+    world.run(fmt::format("G{} S100\nR7=$P_GG[15]\n", code));
+    EXPECT_EQ(world.r(7), number) << code;
+  }
   for (const int number : {1, 2, 3, 4}) {  // DIAMOF, DIAMON, DIAM90, DIAMCYCOF
     world.run(fmt::format("G[29]={}\nR7=$P_GG[29]\n", number));
     EXPECT_EQ(world.r(7), number);
