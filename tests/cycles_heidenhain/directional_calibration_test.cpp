@@ -97,6 +97,9 @@ TEST(Cycle460, RemovesWhatDependsOnTheDirection) {
     ASSERT_TRUE(ran.finished()) << ran.why();
     EXPECT_EQ(ran.table("TOOL.T").text("1", "DR2TABLE"), "T1.3DTC");
     EXPECT_NEAR(ran.q(164), world.deviation, interpolated);
+    // What the record says of the touch lies on the wall, too, which passes 90 mm beside the preset.
+    const control::TouchRecord& touch = ran.outcome.journal.cycles.back().touches.back();
+    EXPECT_NEAR((touch.surface - Vector3(90, 0, 0)).dot(world.normal), 0, interpolated);
   }
   EXPECT_GT(plain, 0.008);
 }

@@ -284,6 +284,7 @@ TEST(InspectionTravel, BeginsInTheMiddleOfNarrowPockets) {
           EXPECT_LT((stroke.start - middle).norm(), near);
         for (const double height : travel.highest)
           EXPECT_NEAR(height, depth, near);
+        EXPECT_NEAR(travel.last.z(), clearance + ball, near) << "the lowest point of the ball ends at Q260";
       }
     }
   }
