@@ -160,6 +160,19 @@ TEST(Survive, ProvesNothingOfProgramsThatComputeWithResults) {
   EXPECT_EQ(own.proven, 1) << survivalText(own);
 }
 
+/// Cycles write Q100 to Q199, Q600 to Q699 and Q900 to Q999; all others are the program's.
+TEST(Survive, KnowsWhichParametersCyclesWrite) {
+  const auto obstacle = [](int number) {
+    const std::string blocks = fmt::format("Q{0} = 20\nQ1 = Q{0} - 10\nL X+Q1 R0 FMAX\n", number);
+    const auto made = clamped(plateSetup(), klartext(blocks), {"part.pose.x=0.1"});
+    return made && made->obstacle().has_value();
+  };
+  for (const int number : {100, 199, 600, 699, 900, 999})
+    EXPECT_TRUE(obstacle(number)) << number;
+  for (const int number : {99, 200, 599, 700, 899, 1000})
+    EXPECT_FALSE(obstacle(number)) << number;
+}
+
 TEST(Survive, SaysThatTheSetupAsWrittenFails) {
   std::string setup = plateSetup();
   setup.replace(setup.find("x = 0, y"), 5, "x = 25");
