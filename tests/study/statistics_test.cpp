@@ -47,10 +47,12 @@ TEST(Distributions, HaveTheMomentsThatTheySay) {
        {0, std::sqrt(1 - 2 * std::exp(-0.5) / std::sqrt(2 * std::numbers::pi) / std::erf(1 / std::sqrt(2.0)))}},
       {Distribution::truncated(Uniform{2, 6}, {3, 5}).value(), {4, 2 / std::sqrt(12.0)}},
       {Distribution::truncated(Uniform{2, 6}, {-3, 5}).value(), {3.5, 3 / std::sqrt(12.0)}},
-      // From its mode on a triangle falls to its end; above its middle the arcsine is that of a quarter of a turn.
+      // From its mode on a triangle falls to its end. Above three quarters of its width the arcsine is that of a sixth
+      // of a turn: 1 + 2 sin, from 30 to 90 degrees.
       {Distribution::truncated(Triangular{0, 1, 4}, {1, 9}).value(), {2, std::sqrt(0.5)}},
-      {Distribution::truncated(UShaped{-1, 3}, {1, 9}).value(),
-       {1 + 4 / std::numbers::pi, std::sqrt(2 - 16 / (std::numbers::pi * std::numbers::pi))}},
+      {Distribution::truncated(UShaped{-1, 3}, {2, 9}).value(),
+       {1 + 3 * std::sqrt(3.0) / std::numbers::pi,
+        std::sqrt(2 + 3 * std::sqrt(3.0) / (2 * std::numbers::pi) - 27 / (std::numbers::pi * std::numbers::pi))}},
       // Half of Student's t with 4 degrees of freedom: the mean of |t| is 1, that of its square 2.
       {Distribution::truncated(Student{10, 0.5, 4}, {10, 1e6}).value(), {10.5, 0.5}},
   };
