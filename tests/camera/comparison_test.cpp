@@ -153,6 +153,35 @@ TEST(Png, KeepsEveryPixel) {
   EXPECT_EQ(*back, picture);
 }
 
+/// The outermost pixels of an area, those around an error, cut off at the ends of the picture; nothing else changes.
+TEST(Png, FramesAreasAndErrorsToThePixel) {
+  constexpr int wide = 20, high = 14;
+  constexpr std::uint8_t plain = 200;  // neither blue nor red has this grey
+  const Picture grey{wide, high, std::vector<std::uint8_t>(std::size_t{wide} * high, plain)};
+  const auto changed = [&](const std::vector<Window>& areas, const std::vector<Window>& errors) {
+    const auto framed = fromPng(toPng(grey, areas, errors), "a.png");
+    std::vector<std::string> rows(high, std::string(wide, '.'));
+    for (int y = 0; y < high; ++y)
+      for (int x = 0; x < wide; ++x)
+        if (framed->grey[static_cast<std::size_t>(y * wide + x)] != plain)
+          rows[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] = '#';
+    return rows;
+  };
+  const auto frame = [](int left, int top, int right, int bottom) {
+    std::vector<std::string> rows(high, std::string(wide, '.'));
+    for (int y = 0; y < high; ++y)
+      for (int x = 0; x < wide; ++x)
+        if (x >= left && x <= right && y >= top && y <= bottom && (x == left || x == right || y == top || y == bottom))
+          rows[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] = '#';
+    return rows;
+  };
+  EXPECT_EQ(changed({{3, 2, 5, 4}}, {}), frame(3, 2, 7, 5));
+  EXPECT_EQ(changed({}, {{3, 2, 5, 4}}), frame(2, 1, 8, 6));
+  EXPECT_EQ(changed({{0, 0, wide, high}}, {}), frame(0, 0, wide - 1, high - 1));
+  EXPECT_EQ(changed({}, {{0, 0, 5, 4}}), frame(-1, -1, 5, 4));
+  EXPECT_EQ(changed({}, {{wide - 5, high - 4, 5, 4}}), frame(wide - 6, high - 5, wide, high));
+}
+
 TEST(Png, FramesAreasAndErrors) {
   const Picture grey{20, 10, std::vector<std::uint8_t>(200, 90)};
   const std::vector<Window> areas = {{2, 2, 10, 6}}, errors = {{18, 8, 5, 5}};
