@@ -1,3 +1,5 @@
+#include <map>
+
 #include "cycles_sinumerik/milling_variants.hpp"
 
 /// Calls whose parameters are global user data: they measure and write what the call with arguments does.
