@@ -154,7 +154,10 @@ std::optional<double> errorOf(const FrameNumber& number, const Written& written,
     // An offset of a rotary axis may count against the angle that was measured.
     const double change = written.value - written.before.value_or(0);
     const double quarter = std::remainder(errors.believedAngle[i], 90.0);
-    const double sense = std::abs(change + quarter) < std::abs(change - quarter) ? -1 : 1;
+    const auto apart = [&](double sense) {
+      return std::min(std::abs(change - sense * quarter), std::abs(written.value - sense * quarter));
+    };
+    const double sense = apart(-1) < apart(1) ? -1 : 1;
     return sense * *errors.angle[i];
   }
   return std::nullopt;

@@ -80,22 +80,27 @@ TEST(Entries, OfAPresetAreAsWrongAsTheFeatureThatWasMeasured) {
               HasSubstr("  preset 1: 0.022 mm from the truth (X "));
 }
 
+/// The program counts from a preset that is turned already, or from one that is not.
 TEST(Entries, OfARotationTellItsAngle) {
-  World world;
-  world.origin = {0, 0, -480};
-  world.part = plate("{ z = -480, c = 0.8 }");
-  // The machine's X and Y are not square: what lies along X is right, what lies along Y is not.
-  world.more = "[[errors.squareness]]\naxis = \"X\"\ntowards = \"Y\"\ndegrees = 0.01\n";
-  const Told told = run(world,
-                        "TOOL CALL 1 Z\nL Z+50 R0 FMAX\nTCH PROBE 400 ROTATION ~\nQ263=-30 ~\nQ264=-30 ~\nQ265=+30 ~\n"
-                        "Q266=-30 ~\nQ272=+2 ~\nQ267=+1 ~\nQ261=-8 ~\nQ320=+2 ~\nQ260=+20 ~\nQ301=+1 ~\nQ307=+0 ~\n"
-                        "Q305=+1\n");
-  ASSERT_TRUE(told.finished()) << told.why();
-  const records::EntryTruth& preset = entry(told, "preset 1");
-  EXPECT_NEAR(value(preset, "SPC").truth, 0.8, cell);
-  ASSERT_TRUE(preset.angle);
-  EXPECT_NEAR(*preset.angle, 0.01, 2 * cell);
-  EXPECT_FALSE(preset.distance);
+  for (const double before : {0.0, -5.0}) {
+    World world;
+    world.origin = {0, 0, -480};
+    world.rotation = before;
+    world.part = plate(fmt::format("{{ z = -480, c = {} }}", before + 0.8));
+    // The machine's X and Y are not square: what lies along X is right, what lies along Y is not.
+    world.more = "[[errors.squareness]]\naxis = \"X\"\ntowards = \"Y\"\ndegrees = 0.01\n";
+    const Told told =
+        run(world,
+            "TOOL CALL 1 Z\nL Z+50 R0 FMAX\nTCH PROBE 400 ROTATION ~\nQ263=-30 ~\nQ264=-30 ~\nQ265=+30 ~\n"
+            "Q266=-30 ~\nQ272=+2 ~\nQ267=+1 ~\nQ261=-8 ~\nQ320=+2 ~\nQ260=+20 ~\nQ301=+1 ~\nQ307=+0 ~\n"
+            "Q305=+1\n");
+    ASSERT_TRUE(told.finished()) << told.why();
+    const records::EntryTruth& preset = entry(told, "preset 1");
+    EXPECT_NEAR(value(preset, "SPC").truth, before + 0.8, cell);
+    ASSERT_TRUE(preset.angle);
+    EXPECT_NEAR(*preset.angle, 0.01, 2 * cell);
+    EXPECT_FALSE(preset.distance);
+  }
 }
 
 TEST(Entries, OfAZeroOffsetAreComparedOnASinumerik) {
