@@ -12,6 +12,7 @@ namespace probewright::control::sinumerik {
 
 namespace {
 
+constexpr int firstOffset = 3, lastOffset = 11;  // parameters of an edge that a DL adds to
 constexpr std::string_view edgeData = "$TC_DP", additiveOffsets = "$TC_SCP", setupOffsets = "$TC_ECP";
 
 int wholeNumber(double value) { return value >= -1e9 && value <= 1e9 ? static_cast<int>(value) : 0; }
@@ -45,8 +46,10 @@ std::string setupOffsetName(int dl, int parameter) { return fmt::format("{}{}", 
 std::optional<int> offsetNumber(std::string_view name) {
   if (!name.starts_with(additiveOffsets) && !name.starts_with(setupOffsets)) return std::nullopt;
   const auto parameter = parseInteger(name.substr(additiveOffsets.size()));
-  if (!parameter || *parameter < 10 || *parameter > 99) return std::nullopt;
-  return static_cast<int>(*parameter / 10);
+  for (int dl = 1; dl <= lastOffsetNumber; ++dl) {
+    if (parameter && *parameter >= 10 * dl + firstOffset && *parameter <= 10 * dl + lastOffset) return dl;
+  }
+  return std::nullopt;
 }
 
 bool isToolSize(std::string_view name) {

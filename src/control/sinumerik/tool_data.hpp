@@ -53,7 +53,7 @@ std::string setupOffsetName(int dl, int parameter);
 /// True for the names of tool data that add up to lengths and radius of an edge: $TC_DP3..6, 12..15 and 21..23, the
 /// additive and setup offsets $TC_SCP.., $TC_ECP...
 bool isToolSize(std::string_view name);
-/// The DL number of "$TC_SCP13", "$TC_ECP26": 1, 2; nothing for other names.
+/// The DL number of "$TC_SCP13" to "$TC_SCP21", "$TC_ECP23" to "$TC_ECP31": 1, 2; nothing for other names.
 std::optional<int> offsetNumber(std::string_view name);
 
 /// Tools with data, in order, and their edges.
