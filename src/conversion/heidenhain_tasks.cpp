@@ -370,6 +370,7 @@ private:
     task.millimetre = call_.millimetre;
     const double lengthPath = 5 * call_.millimetre;  // cycle 461 has no set-up clearance
     task.path = feature == Feature::ProbeLength ? Quantity(lengthPath) : q(320) + call_.probe.setUp * call_.millimetre;
+    if (feature != Feature::ProbeLength) task.beyond = Quantity(call_.probe.travel * call_.millimetre) - task.path;
     task.size[0] = q(407) * 2;
     task.place[2] = q(434);
     task.angle = q(380);

@@ -133,6 +133,10 @@ void ToSinumerik::singleTouch(const Block& block, const CycleCall& cycle, const 
   // Back by MB, but not farther than to the start.
   const bool limited = call.has(wordName(probe_word::retraction));
   const Quantity most = limited ? call.number(wordName(probe_word::retraction)) : Quantity(std::abs(distance));
+  if (limited && most == 0) {
+    out_.list(block, "with MB0 the stylus stays deflected, and a HEIDENHAIN control stops at the next motion",
+              "give MB the length to retract by");
+  }
   out_.line(fmt::format("{}=MAXVAL(0,SQRT({})-{})", rest, travelled, factorText(sinumerikText(most))));
   std::string home = "G0";
   for (std::size_t i = 0; i < 3; ++i) {

@@ -196,7 +196,7 @@ private:
 
   /// S_FA, shortened where the way to the place in front of a wall would lead beyond the middle.
   Quantity pathInside() const {
-    if (!isInside(task_.feature)) return path_;
+    if (!isInside(task_.feature) && task_.feature != Feature::ProbeInRing) return path_;
     constexpr double largestBall = 12;
     Quantity width = task_.size[0];
     if (isRectangular(task_.feature) && width.isNumber() && task_.size[1].isNumber()) {
@@ -422,6 +422,7 @@ private:
         set("S_SETV", task_.place[2]);
         break;
       case Feature::ProbeInRing:
+        set("S_FA", pathInside());
         set("S_MVAR", task_.angle == 0 ? 2 : 100002);
         set("S_SETV", task_.size[0]);
         set("S_STA1", task_.angle);

@@ -64,7 +64,7 @@ Call ToSinumerik::callOf(const Block& block, const CycleCall& cycle) {
         continue;
       }
     }
-    call.numbers[name] = quantity(block, word.value);
+    if (word.value.present()) call.numbers[name] = quantity(block, word.value);  // MB MAX has no number
   }
   return call;
 }
@@ -163,7 +163,7 @@ void ToSinumerik::requireReach(const Block& block, const MeasuringTask& task, co
   const Quantity enough = (task.path + task.beyond) / 2 - Quantity(probe_.setUp * millimetre_);
   out_.list(block,
             fmt::format("a touch probe with DIST = {} looks for the surface farther beyond its place than before "
-                        "it, CYCLE977 to CYCLE979 as far as S_FA only",
+                        "it, SINUMERIK cycles as far as S_FA only",
                         numberText(probe_.travel)),
             enough.isNumber() ? fmt::format("program Q320 = {} if there is room, or tell by --dist what DIST is",
                                             numberText(enough.number()))

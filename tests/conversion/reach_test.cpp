@@ -202,6 +202,28 @@ TEST(ConvertReach, SinumerikCyclesFindWhatTheTouchProbeFinds) {
   }
 }
 
+/// A ring leaves no more room than to its middle; on a sphere the probe looks down along DIST from where it stands.
+TEST(ConvertReach, CalibrationsFindRingAndSphere) {
+  for (const double clearance : {1.0, 8.0, 30.0}) {
+    const PlantedPart part = worldOf(features[0], -5, 16);
+    const Twin original = runKlartext(
+        klartextProgram("L X+0.3 Y-0.2 R0 FMAX\nL Z-10 R0 FMAX\n" +
+                        probe(462, {{407, 15}, {320, clearance}, {423, 4}, {380, 0}}) + "L X+0 Y+0 Z+40 R0 FMAX\n"),
+        part);
+    ASSERT_TRUE(original.finished) << original.why;
+    const Twin there = runConverted(original, part);
+    EXPECT_TRUE(ranWhole(there)) << clearance;
+    EXPECT_TRUE(sameEnd(original, there));
+  }
+  for (const double travel : {6.0, 8.0}) {
+    const std::string sphere = klartextProgram(
+        probe(460, {{407, 12.5}, {320, 1}, {301, 0}, {423, 4}, {380, 0}, {433, 0}, {434, 0}, {455, 0}}));
+    const conversion::Conversion there =
+        converted(sphere, ProgramLanguage::Klartext, ControlKind::TNC640, {.setUp = 2, .travel = travel});
+    EXPECT_EQ(lists(there, "looks for the surface farther"), travel > 6) << there.text;
+  }
+}
+
 /// A touch probe cycle begins in the middle where the walls leave no room in front of them, and at the surface where
 /// SET_UP and Q320 are 0; a measuring path of a SINUMERIK is longer than 0.
 TEST(ConvertReach, ListsMeasuringPathsThatMayBeNothing) {

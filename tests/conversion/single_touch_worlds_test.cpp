@@ -123,6 +123,42 @@ TEST(ConvertSingleTouch, MeasuresWithMeasuringBlocks) {
   }
 }
 
+TEST(ConvertSingleTouch, RetractsToTheStart) {
+  PlantedPart part{Bench(ControlKind::TNC640, "mill3")};
+  part.bench.preset(1, {20, -10, -400}, 0);
+  part.bench.probeOf(100, 2);
+  part.bench.part(simulation::Box({-50, -50, -40}, {50, 50, 0}), pose({20, -10, -400}));
+  for (const char* back : {"MB MAX", "MB2"}) {
+    for (const char* cycle : {"TCH PROBE 3.0 MEASURING\nTCH PROBE 3.1 Q10\nTCH PROBE 3.2 X ANGLE: +20\nTCH PROBE 3.3 ",
+                              "TCH PROBE 4.0 MEASURING IN 3-D\nTCH PROBE 4.1 Q10\nTCH PROBE 4.2 IX+1 IY+0 IZ-0.2\n"
+                              "TCH PROBE 4.3 "}) {
+      const Twin original =
+          runKlartext(klartextProgram(fmt::format("L X-58 Y+0 R0 FMAX\nL Z-5 R0 FMAX\n{}DIST +10 F100 {} REFERENCE "
+                                                  "SYSTEM: 0\n",
+                                                  cycle, back)),
+                      part);
+      ASSERT_TRUE(original.finished) << original.why;
+      EXPECT_EQ(std::abs(original.axes[0] + 38) < exactly, back == std::string("MB MAX"));
+      const Twin there = runConverted(original, part);
+      EXPECT_TRUE(ranWhole(there));
+      EXPECT_TRUE(sameEnd(original, there));
+    }
+  }
+}
+
+/// A stylus that is not retracted is still deflected when a HEIDENHAIN control moves on.
+TEST(ConvertSingleTouch, NamesThatItIsNotRetracted) {
+  for (const char* back : {"MB0", "MB1", "MB MAX"}) {
+    const std::string along = fmt::format(
+        "TCH PROBE 3.0 MEASURING\nTCH PROBE 3.1 Q10\nTCH PROBE 3.2 X ANGLE: +0\n"
+        "TCH PROBE 3.3 DIST +10 F100 {} REFERENCE SYSTEM: 0\n",
+        back);
+    EXPECT_EQ(lists(toSinumerik(klartextProgram("L X+0 Y+0 R0 FMAX\n" + along)), "stays deflected"),
+              back == std::string("MB0"))
+        << back;
+  }
+}
+
 TEST(ConvertSingleTouch, CalibratesTheLengthWithCycle9) {
   Dice dice(9);
   for (int world = 0; world < worlds; ++world) {
