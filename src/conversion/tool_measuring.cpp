@@ -150,8 +150,16 @@ void ToKlartext::toolMeasurement(const Block& block, const Call& call) {
     out_.lose(block, "S_MVAR: a radius is measured with a rotating tool, unless CUT is 0 in TOOL.T");
   if (task == 1 && length)
     out_.list(block, "S_MVAR: the tool stands only where R-OFFS of TOOL.T is 0", "enter 0 for drills and ball cutters");
-  if (call.number("S_TSA").isNumber() && call.number("S_TSA").number() < reach * millimetre_)
+  const auto isWithin = [&](const char* name, double least, double most) {
+    const Quantity value = call.number(name);
+    return value.isNumber() && value.number() >= least * millimetre_ && value.number() <= most * millimetre_;
+  };
+  if (!isWithin("S_TSA", reach, unlimited))
     out_.lose(block, fmt::format("S_TSA: a tool is looked for along {} mm, and corrected by any deviation", reach));
+  if (!isWithin("S_FA", 0, reach))
+    out_.lose(block, fmt::format("S_FA: touch probe cycles look for the tool along {} mm", reach));
+  if (call.digit("S_MA", 3) != 0)
+    out_.lose(block, "S_MA: how far beside its middle a tool is touched is R-OFFS and L-OFFS of TOOL.T");
   for (const char* name : {"S_ID", "S_TZL", "S_TDIF", "S_EVNUM"}) {
     if (!(call.number(name) == 0)) out_.lose(block, fmt::format("{} has no counterpart in touch probe cycles", name));
   }

@@ -255,6 +255,11 @@ TEST(ToolConversion, ToKlartextNamesWhatTouchProbeCyclesLack) {
   EXPECT_NE(text("CYCLE971(2,0,1,3,0,2,15,15)").find("S_ID has no counterpart"), std::string::npos);
   EXPECT_NE(text("CYCLE971(2,0,1,3,0,0,15,15,,0.01,0.2)").find("S_TDIF has no counterpart"), std::string::npos);
   EXPECT_NE(text("CYCLE971(2,0,1,3,0,0,15,3)").find("S_TSA: a tool is looked for"), std::string::npos);
+  EXPECT_NE(text("CYCLE971(2,0,1,3,0,0,15,R1)").find("S_TSA: a tool is looked for"), std::string::npos);
+  EXPECT_NE(text("CYCLE971(2,0,1,3,0,0,30,15)").find("S_FA: touch probe cycles look"), std::string::npos);
+  EXPECT_NE(text("CYCLE971(2,0,1,3,0,0,R1,15)").find("S_FA: touch probe cycles look"), std::string::npos);
+  EXPECT_NE(text("CYCLE971(2,0,1,103,0,0,15,15)").find("S_MA: how far beside"), std::string::npos);
+  EXPECT_EQ(text("CYCLE971(2,0,1,3,0,0,15,15)").find("NOT CARRIED OVER"), std::string::npos);
   EXPECT_NE(text("CYCLE971(1,0,1,1,1,0,15,15)").find("a rotating tool"), std::string::npos);
   EXPECT_NE(text("CYCLE971(2,0,1,3,0,0,15,15,,,,3)").find("S_NMSP: one touch"), std::string::npos);
 }
