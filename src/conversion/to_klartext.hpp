@@ -179,11 +179,17 @@ private:
   // to_klartext_moves.cpp
   void move(const language::Block& block, const language::Move& move);
   void arc(const language::Block& block, const language::Move& move, bool clockwise);
-  /// RND and CHR, at the end of the path in this block.
-  void corner(const language::Block& block, std::span<const language::Word> words);
+  /// Main and minor axis, as far as the program tells them.
+  using PlanePoint = std::array<std::optional<Quantity>, 2>;
+  /// RND and CHR, at the end of the path in this block, which begins at `from`.
+  void corner(const language::Block& block, std::span<const language::Word> words, const PlanePoint& from);
+  /// Lists a corner that is larger than one of the two lines that it joins, where the program tells their ends.
+  void listTooLarge(const language::Block& block, std::span<const language::Word> words, const PlanePoint& from,
+                    const PlanePoint& to);
   struct NextPath {
     std::optional<language::MoveKind> kind;     ///< nothing: as the active G function says
     bool hasFeed = false, compensates = false;  ///< F, or G40 to G42, stand before it or in its block
+    PlanePoint to;                              ///< where it ends
   };
   /// Lists a block that a contour with radius compensation does not go on through as on a HEIDENHAIN control.
   void listCompensation(const language::Block& block);
@@ -322,6 +328,7 @@ private:
   std::string compensation_ = "R0";
   std::string travelled_ = "R0";    ///< radius compensation of the last path
   bool travelledAtRapid_ = false;   ///< the last path was at rapid traverse
+  double takenByCorner_ = 0;        ///< of the path that follows, by the corner that begins it
   std::string pendingTool_, tool_;  ///< to be changed to, in the spindle
   bool measuredWithTool_ = false;   ///< a cycle has measured with the tool in the spindle
   std::optional<int> activeRow_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "conversion/sinumerik_formulas.hpp"
@@ -101,12 +102,40 @@ void ToKlartext::listCompensatedPath(const Block& block, std::span<const Word> w
   }
 }
 
-void ToKlartext::corner(const Block& block, std::span<const Word> words) {
+void ToKlartext::listTooLarge(const Block& block, std::span<const Word> words, const PlanePoint& from,
+                              const PlanePoint& to) {
+  const double takenBefore = std::exchange(takenByCorner_, 0);
+  const auto apart = [](const PlanePoint& begin, const PlanePoint& end) -> std::optional<std::array<double, 2>> {
+    std::array<double, 2> way{};
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (!begin[i] || !end[i] || !(*end[i] - *begin[i]).isNumber()) return std::nullopt;
+      way[i] = (*end[i] - *begin[i]).number();
+    }
+    return std::hypot(way[0], way[1]) > 0 ? std::optional(way) : std::nullopt;
+  };
+  const PlanePoint at = {position_[0], position_[1]};
+  const auto first = apart(from, at), second = apart(at, to);
+  const Word* round = find(words, "RND");
+  const Quantity size = quantity(block, (round != nullptr ? round : find(words, "CHR"))->value);
+  if (!first || !second || !size.isNumber()) return;
+  const double turn = std::atan2((*first)[0] * (*second)[1] - (*first)[1] * (*second)[0],
+                                 (*first)[0] * (*second)[0] + (*first)[1] * (*second)[1]);
+  takenByCorner_ = round != nullptr ? size.number() * std::tan(std::abs(turn) / 2) : size.number();
+  const double least =
+      std::min(std::hypot((*first)[0], (*first)[1]) - takenBefore, std::hypot((*second)[0], (*second)[1]));
+  if (takenByCorner_ <= least + 1e-6) return;
+  out_.list(block,
+            "this corner is larger than one of its two lines: a HEIDENHAIN control stops, a SINUMERIK makes it smaller",
+            "make it smaller");
+}
+
+void ToKlartext::corner(const Block& block, std::span<const Word> words, const PlanePoint& from) {
   const Word* cornerFeed = find(words, "FRC");
   const std::string slow = cornerFeed == nullptr ? "" : feedWord(block, cornerFeed->value);
   const Word* round = find(words, "RND");
   const Word* chamfer = find(words, "CHR");
   if (round == nullptr && chamfer == nullptr) {
+    takenByCorner_ = 0;
     if (cornerFeed != nullptr) out_.lose(block, "FRC without RND or CHR in its block");
     return;
   }
@@ -122,6 +151,7 @@ void ToKlartext::corner(const Block& block, std::span<const Word> words) {
   } else if (chamfer != nullptr && (isArc(motion_) || isArc(kind))) {
     out_.list(block, "a HEIDENHAIN control chamfers between straight lines only", "write the chamfer as a line");
   }
+  listTooLarge(block, words, isArc(motion_) ? PlanePoint() : from, next && !isArc(kind) ? next->to : PlanePoint());
   if (motion_ == MoveKind::Rapid || kind == MoveKind::Rapid) {
     out_.list(block, "a corner between paths at rapid traverse is travelled at another speed on a HEIDENHAIN control",
               "give the paths before and after the corner a feed");
@@ -143,6 +173,7 @@ std::optional<ToKlartext::NextPath> ToKlartext::nextPath(const Block& block) {
   Block next;
   Diagnostics ignored;
   NextPath path;
+  bool incremental = incremental_;
   for (BlockPosition at = block.next; program_.parse(at, next, ignored); at = next.next) {
     if (next.label.length != 0) return std::nullopt;
     for (const Instruction& instruction : next.instructions) {
@@ -151,13 +182,27 @@ std::optional<ToKlartext::NextPath> ToKlartext::nextPath(const Block& block) {
       const std::string_view name = modal == nullptr ? std::string_view() : next.at(modal->name);
       if (name == "F") path.hasFeed = true;
       if (name == "G40" || name == "G41" || name == "G42") path.compensates = true;
+      if (name == "G90" || name == "G91") incremental = name == "G91";
       if (name == "G0") path.kind = MoveKind::Rapid;
-      if (name == "G1" || name == "G2" || name == "G3") path.kind = MoveKind::Linear;
+      if (name == "G1") path.kind = MoveKind::Linear;
+      if (name == "G2") path.kind = MoveKind::ArcClockwise;
+      if (name == "G3") path.kind = MoveKind::ArcCounterclockwise;
       const auto* move = std::get_if<Move>(&instruction);
       if (move == nullptr) continue;
       if (move->kind != MoveKind::Modal) path.kind = move->kind;
       path.hasFeed = path.hasFeed || move->feed.present();
       path.compensates = path.compensates || move->compensation != RadiusCompensation::Unchanged;
+      const auto words = std::span<const Word>(next.words).subspan(move->words.first, move->words.count);
+      for (std::size_t i = 0; i < 2; ++i) {
+        const Word* word = find(words, axis(i));
+        if (word == nullptr) {
+          path.to[i] = position_[i];
+        } else if (word->value.isLiteral()) {
+          const bool adds = word->mode == WordMode::Incremental || (word->mode == WordMode::Plain && incremental);
+          if (!adds) path.to[i] = word->value.number;
+          if (adds && position_[i]) path.to[i] = *position_[i] + word->value.number;
+        }
+      }
       return path;
     }
   }

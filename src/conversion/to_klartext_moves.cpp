@@ -79,6 +79,7 @@ bool ToKlartext::callsEdge(const Block& block) {
 }
 
 void ToKlartext::move(const Block& block, const Move& move) {
+  const PlanePoint from = {position_[0], position_[1]};
   const auto words = std::span<const Word>(block.words).subspan(move.words.first, move.words.count);
   if (move.compensation != RadiusCompensation::Unchanged) {
     compensation_ = move.compensation == RadiusCompensation::Off    ? "R0"
@@ -162,7 +163,7 @@ void ToKlartext::move(const Block& block, const Move& move) {
     default:
       throw NotCarriedOver("this path function has no twin in Klartext", "write lines and arcs");
   }
-  corner(block, words);
+  corner(block, words, from);
   if (shortest) line("M127");
 }
 

@@ -122,6 +122,23 @@ TEST(ConvertCorners, NameArcsThatOneControlRefuses) {
     EXPECT_TRUE(lists(toSinumerik(fromKlartext(blocks)), "between straight lines only")) << blocks;
 }
 
+/// A SINUMERIK makes what does not fit smaller; what the corner before it has taken of a line is gone.
+TEST(ConvertCorners, NameThoseThatAreLargerThanTheirLines) {
+  const char* large = "this corner is larger than one of its two lines";
+  for (const char* blocks :
+       {"G1 X20 RND=21\nY50\n", "G1 X50 RND=21\nY20\n", "G1 X20 CHR=21\nY50\n", "G1 X50 RND=12\nY20 RND=9\nX0\n",
+        "G1 X50 RND=21\nG91 Y20\nG90\n", "G1 X20 RND=10\nX0 Y5\n"}) {
+    EXPECT_TRUE(lists(toKlartext(fromSinumerik(blocks)), large)) << blocks;
+    const PlantedPart part = plainTable();
+    const Twin original = runSinumerik(fromSinumerik(blocks), part);
+    EXPECT_TRUE(original.finished) << original.why;
+    EXPECT_FALSE(runConverted(original, part).finished) << blocks;
+  }
+  for (const char* blocks : {"G1 X20 RND=19\nY50\n", "G1 X50 RND=11\nY20 RND=9\nX0\n", "G1 X50 CHR=19\nY=IC(20)\n",
+                             "G1 X50 RND=12\nY20\nX0 RND=9\nY0\n"})
+    EXPECT_TRUE(goesTheSameWayBack(blocks)) << blocks;
+}
+
 /// A rounding beside an arc touches it elsewhere than the corner was.
 TEST(ConvertCorners, RoundBesideArcs) {
   EXPECT_TRUE(goesTheSameWay("L X+20 F60\nRND R5\nCR X+40 Y+30 R+25 DR-\nRND R4\nL Y-20\n"));
