@@ -116,11 +116,12 @@ void ToKlartext::listTooLarge(const Block& block, std::span<const Word> words, c
   const PlanePoint at = {position_[0], position_[1]};
   const auto first = apart(from, at), second = apart(at, to);
   const Word* round = find(words, "RND");
-  const Quantity size = quantity(block, (round != nullptr ? round : find(words, "CHR"))->value);
-  if (!first || !second || !size.isNumber()) return;
+  const Operand& written = (round != nullptr ? round : find(words, "CHR"))->value;
+  if (!first || !second || !written.isLiteral()) return;
+  const double size = written.number;
   const double turn = std::atan2((*first)[0] * (*second)[1] - (*first)[1] * (*second)[0],
                                  (*first)[0] * (*second)[0] + (*first)[1] * (*second)[1]);
-  takenByCorner_ = round != nullptr ? size.number() * std::tan(std::abs(turn) / 2) : size.number();
+  takenByCorner_ = round != nullptr ? size * std::tan(std::abs(turn) / 2) : size;
   const double least =
       std::min(std::hypot((*first)[0], (*first)[1]) - takenBefore, std::hypot((*second)[0], (*second)[1]));
   if (takenByCorner_ <= least + 1e-6) return;
