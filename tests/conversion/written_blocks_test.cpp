@@ -51,7 +51,8 @@ TEST(WrittenBlocks, ComputeTheClearanceHeightBeforeTheToolIsMeasured) {
       for (const int axis : {1, 3})
         for (const char* height : {"R1+100", "2*R1", "MAXVAL(R1,100)", "MAXVAL($AA_IW[Z],100)", "R1", "100"}) {
           SCOPED_TRACE(fmt::format("{} {} {}", axis, height, inch));
-          expectWhole(fmt::format("G0 Z={}\nCYCLE971(2,1,1,{},{},,15,15,,,,1)\n", height, axis, axis == 3 ? 0 : 1),
+          expectWhole(fmt::format("G0 Z={}\nCYCLE971(2,1,1,{},{},,{},15,,,,1)\n", height, axis, axis == 3 ? 0 : 1,
+                                  inch ? 0.5 : 15),
                       control, inch);
         }
 }
