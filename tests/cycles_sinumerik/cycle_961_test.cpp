@@ -239,6 +239,14 @@ TEST(Cycle961, RefusesWithTheControlsAlarms) {
   EXPECT_EQ(alarm({{"S_MVAR", 108}, {"S_SETV3", 90}, {"S_INCA", 180}}), "61319");
   EXPECT_EQ(alarm({{"S_SETV1", 400}}), "61301") << "beyond the end of the edge";
   EXPECT_EQ(alarm({}), "");
+  // By coordinates: points 1 and 2 lie at (30, -15) and (80, -15).
+  const auto alarmFor = [&](double x, double y) {
+    return alarm(
+        {{"S_MVAR", 116}, {"S_SETV1", -15}, {"S_SETV2", 80}, {"S_SETV3", -15}, {"S_SETV4", x}, {"S_SETV5", y}});
+  };
+  EXPECT_EQ(alarmFor(-15, 60), "");
+  EXPECT_EQ(alarmFor(-15, -15), "61319") << "point 3 on the first edge";
+  EXPECT_EQ(alarmFor(55, 60), "61319") << "the corner midway between points 1 and 2";
 }
 
 }  // namespace

@@ -128,6 +128,37 @@ struct Distances {
   }
 };
 
+/// The edges as points by coordinates show them: two on the first, one or two on the second.
+struct Coordinates {
+  Vector2 first = Vector2::Zero(), second = Vector2::Zero();  ///< unit, along the edges
+  Vector2 pole = Vector2::Zero();                             ///< where they meet
+  Vector2 edge1 = Vector2::Zero(), edge2 = Vector2::Zero();   ///< from the pole to what is touched of each
+  /// The argument at which they are no edges, and why; an empty text where they are.
+  std::pair<std::string_view, std::string> mistake;
+
+  Coordinates(const Vector2 (&point)[4], bool rightAngled) {
+    constexpr double least = 1e-6;  // mm
+    first = point[1] - point[0];
+    if (first.norm() < least) {
+      mistake = {"S_SETV3", "points 1 and 2 (S_SETV0 to S_SETV3) coincide"};
+      return;
+    }
+    first.normalize();
+    second = rightAngled ? Vector2(-first.y(), first.x()) : Vector2(point[3] - point[2]);
+    if (second.norm() < least || std::abs(cross(first, second.normalized())) < 0.01) {
+      mistake = {"S_SETV7", "the points of the two edges (S_SETV0 to S_SETV7) do not enclose an angle"};
+      return;
+    }
+    second.normalize();
+    pole = intersection(point[0], first, point[2], second);
+    edge1 = first * ((point[0] + point[1]) / 2 - pole).dot(first);
+    edge2 = second * (point[2] - pole).dot(second);
+    if (edge1.norm() < least)
+      mistake = {"S_SETV5", "the second edge runs midway between points 1 and 2: the corner lies to neither side"};
+    if (edge2.norm() < least) mistake = {"S_SETV5", "point 3 (S_SETV4, S_SETV5) lies on the line of points 1 and 2"};
+  }
+};
+
 /// The angle from edge to edge of a corner.
 bool isOpening(double degrees) { return std::abs(std::sin(radiansFromDegrees(degrees))) >= 0.01; }
 
@@ -139,18 +170,12 @@ Plan planOf(Context& context) {
   if (context.digit("S_MVAR", 2) == 1) {
     for (int i = 0; i < plan.points; ++i)
       plan.point[i] = {value(2 * i), value(2 * i + 1)};
-    const Vector2 along = plan.point[1] - plan.point[0];
-    if (along.norm() < 1e-6) context.alarm(61319, "points 1 and 2 coincide");
-    const Vector2 first = along.normalized();
-    Vector2 second = rightAngled ? Vector2(-first.y(), first.x()) : Vector2(plan.point[3] - plan.point[2]);
-    if (second.norm() < 1e-6 || std::abs(cross(first, second.normalized())) < 0.01) {
-      context.alarm(61319, "the points of the two edges do not enclose an angle");
-    }
-    second.normalize();
-    plan.pole = intersection(plan.point[0], first, plan.point[2], second);
-    plan.edge1 = first * ((plan.point[0] + plan.point[1]) / 2 - plan.pole).dot(first);
-    plan.edge2 = second * (plan.point[2] - plan.pole).dot(second);
-    plan.axisAngle = degreesFromRadians(std::atan2(first.y(), first.x()));
+    const Coordinates edges(plan.point, rightAngled);
+    if (!edges.mistake.second.empty()) context.alarm(61319, edges.mistake.second);
+    plan.pole = edges.pole;
+    plan.edge1 = edges.edge1;
+    plan.edge2 = edges.edge2;
+    plan.axisAngle = degreesFromRadians(std::atan2(edges.first.y(), edges.first.x()));
   } else {
     plan.pole = {value(4), value(5)};
     plan.axisAngle = context.real("S_STA1");
@@ -202,20 +227,16 @@ void checkDistances(CallCombinations& call) {
 
 void combinations(CallCombinations& call) {
   if (call.digit(2) != 1) return checkDistances(call);
-  double value[8] = {};
-  const int count = call.digit(1) <= 6 ? 6 : 8;
-  for (int i = 0; i < count; ++i) {
-    const auto coordinate = call.number(fmt::format("S_SETV{}", i));
-    if (!coordinate) return;
-    value[i] = *coordinate;
+  const int points = call.digit(1) <= 6 ? 3 : 4;
+  Vector2 point[4];
+  for (int i = 0; i < points; ++i) {
+    const auto first = call.number(fmt::format("S_SETV{}", 2 * i)),
+               second = call.number(fmt::format("S_SETV{}", 2 * i + 1));
+    if (!first || !second) return;
+    point[i] = {*first, *second};
   }
-  const Vector2 first(value[2] - value[0], value[3] - value[1]);
-  if (first.norm() < 1e-6) return call.refuse("S_SETV3", "points 1 and 2 (S_SETV0 to S_SETV3) coincide");
-  if (count == 6) return;
-  const Vector2 second(value[6] - value[4], value[7] - value[5]);
-  const double cross = first.x() * second.y() - first.y() * second.x();
-  if (second.norm() < 1e-6 || std::abs(cross) < 0.01 * first.norm() * second.norm())
-    call.refuse("S_SETV7", "the points of the two edges (S_SETV0 to S_SETV7) do not enclose an angle");
+  const Coordinates edges(point, points == 3);
+  if (const auto& [argument, text] = edges.mistake; !text.empty()) call.refuse(argument, text);
 }
 
 /// 105 to 108 by distances from where the probe stands, 117 and 118 by coordinates of four points.
