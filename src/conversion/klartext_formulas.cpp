@@ -208,7 +208,7 @@ std::string KlartextFormulas::userVariable(const Block& block, const VariableRef
   }
   try {
     const language::Value& value = datum.at(datum.isArray() ? datum.place(name, indices) : 0);
-    const std::string parameter = define(element, isText(value) ? Holds::Text : Holds::Number);
+    std::string parameter = define(element, isText(value) ? Holds::Text : Holds::Number);
     globalValues_.push_back(fmt::format(
         "{} = {} ; {}", parameter,
         isText(value) ? fmt::format("\"{}\"", std::get<std::string>(value)) : exactText(std::get<double>(value)),
@@ -283,7 +283,7 @@ std::string KlartextFormulas::read(const std::string& datum) {
     if (line.starts_with(start) && line.substr(equals + 3) == datum)
       return line.substr(start.size(), equals - start.size());
   }
-  const std::string result = helper("");
+  std::string result = helper("");
   prelude_.back() = fmt::format("FN 18: SYSREAD {} = {}", result, datum);
   return result;
 }
@@ -296,7 +296,7 @@ std::string KlartextFormulas::measuringBlock(int toolAxis) {
 }
 
 std::string KlartextFormulas::helper(const std::string& formula) {
-  const std::string name = fmt::format("Q{}", firstHelper + nextHelper_);
+  std::string name = fmt::format("Q{}", firstHelper + nextHelper_);
   nextHelper_ = (nextHelper_ + 1) % (lastHelper - firstHelper + 1);
   prelude_.push_back(fmt::format("{} = {}", name, formula));
   return name;

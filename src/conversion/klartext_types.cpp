@@ -56,7 +56,7 @@ bool KlartextFormulas::isTruth(const Block& block, const Operand& operand) const
 }
 
 std::string KlartextFormulas::assigned(const Block& block, const VariableRef& variable, const Operand& operand) {
-  const std::string text = formula(block, operand);
+  std::string text = formula(block, operand);
   switch (typeOf(block, variable)) {
     case Type::Bool:
       return isTruth(block, operand) ? text : fmt::format("ABS (SGN {})", factorText(text));

@@ -485,7 +485,7 @@ Results sinumerikResults(const MeasuringTask& task) {
 }
 
 Quantity sinumerikEdgeAngle(const MeasuringTask& task, const Quantity& angle) {
-  const Quantity counted = task.axis == 0 ? angle - 90 : angle;
+  Quantity counted = task.axis == 0 ? angle - 90 : angle;
   if (!counted.isNumber()) return counted;
   return std::remainder(counted.number(), 180.0);
 }

@@ -114,7 +114,7 @@ void ToKlartext::toolMeasurement(const Block& block, const Call& call) {
   // Length or radius with its delta value, as TOOL.T has them: millimetres.
   const auto believed = [&](const char* when) {
     const std::string tool = formulas_.define("tool that is measured");
-    const std::string whole = formulas_.define(fmt::format("tool {}", when));
+    std::string whole = formulas_.define(fmt::format("tool {}", when));
     const std::string delta = formulas_.define(fmt::format("delta value {}", when));
     line(fmt::format("FN 18: SYSREAD {} = ID20 NR1", tool));
     line(fmt::format("FN 18: SYSREAD {} = ID50 NR{} IDX{}", whole, length ? 1 : 2, tool));

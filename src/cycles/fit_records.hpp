@@ -23,6 +23,7 @@ control::FitRecord recordOf(const metrology::SphereFit& fit, std::vector<std::si
 template <class Touches>
 std::vector<std::size_t> placesOf(const Touches& touches) {
   std::vector<std::size_t> places;
+  places.reserve(touches.size());
   for (const auto& touch : touches)
     places.push_back(touch.record);
   return places;

@@ -163,7 +163,7 @@ private:
 Handle(Poly_Triangulation) triangulation(const CadFace& face, const FaceGrid& grid) {
   const auto count = static_cast<int>(grid.triangles().size());
   if (count == 0) return {};
-  const Handle(Poly_Triangulation) mesh = new Poly_Triangulation(3 * count, count, Standard_True);
+  Handle(Poly_Triangulation) mesh = new Poly_Triangulation(3 * count, count, Standard_True);
   int node = 0;
   for (int i = 0; i < count; ++i) {
     for (const Vector2& uv : grid.triangles()[static_cast<std::size_t>(i)]) {

@@ -19,8 +19,6 @@
 namespace probewright::simulation {
 namespace {
 
-constexpr double kNoBound = 1e300;
-
 class Spline : public FreeformSurface {
 public:
   explicit Spline(SplineNet net) : net_(std::move(net)) {}

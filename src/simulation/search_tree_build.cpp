@@ -208,7 +208,7 @@ struct SearchTree::Builder {
     tree.lines_.resize(first + (size + sizeof(Line) - 1) / sizeof(Line));
     std::byte* to = tree.lines_[first].bytes.data();
     std::memcpy(to, &block, sizeof(Block));
-    std::memcpy(to + sizeof(Block), corners.data(), corners.size() * sizeof(Vector3));
+    std::memcpy(to + sizeof(Block), static_cast<const void*>(corners.data()), corners.size() * sizeof(Vector3));
     return kLeaf | static_cast<std::uint32_t>(first);
   }
 

@@ -13,7 +13,6 @@ namespace probewright::truth {
 
 using control::Along;
 using control::Quantity;
-using records::EntryKind;
 using records::EntryTruth;
 
 WrittenValues writtenValues(const control::Journal& journal) {

@@ -142,6 +142,7 @@ void run(Context& context, const Arguments&) {
       probing->leaveLastObject();
     }
     std::vector<Vector3> centres;
+    centres.reserve(touches.size());
     for (const EvaluatedTouch& touch : touches)
       centres.push_back(touch.ballCentre.vector());
     const auto fit = metrology::fitCircleInPlane(centres, Vector3::UnitZ(), withCofactors);

@@ -32,6 +32,7 @@ PartPoint measureStudCentre(Context& context, const Vector2& centre, double diam
                                              .extraClearance = context.q(320),
                                              .between = betweenOf(context)});
   std::vector<Vector3> centres;
+  centres.reserve(touches.size());
   for (const EvaluatedTouch& touch : touches)
     centres.push_back(touch.ballCentre.vector());
   const auto fit = metrology::fitCircleInPlane(centres, Vector3::UnitZ(), withCofactors);

@@ -13,7 +13,6 @@ namespace probewright::cycles::heidenhain {
 
 using control::Alarm;
 using control::Following;
-using control::heidenhain::rotationFromSpaceAngles;
 using control::heidenhain::spaceAnglesFromRotation;
 using machine::AxisPositions;
 using machine::MachineDescription;
