@@ -402,12 +402,33 @@ std::string ToSinumerik::toolDatum(const Quantity& number, const Quantity& tool)
                      active ? "$P_TOOLNO" : sinumerikText(tool));
 }
 
+bool ToSinumerik::leavesOut(const Block& block, const Command& command) {
+  using enum klartext::CommandKind;
+  const klartext::CommandKind kind = klartext::kindOf(block, command);
+  std::string name(nameOf(kind));
+  bool leaves = kind == Tolerance || kind == Monitoring || kind == OpenFile;
+  if (kind == Function) {
+    const std::string text = upperCase(block.at(command.text));
+    const std::string word = text.substr(0, text.find_first_of(" \r\n"));
+    leaves = word == "FEED" || word == "S-PULSE" || word == "ACC";
+    name += fmt::format(" {}", word);
+  }
+  if (!leaves) return false;
+  out_.listOnce(block,
+                fmt::format("{} says how the path is travelled or the program shown, not where it leads: it is left "
+                            "out",
+                            name),
+                "say it by the words of the SINUMERIK control, if need be", Severity::Note);
+  return true;
+}
+
 void ToSinumerik::command(const Block& block, const Command& command) {
   const klartext::CommandKind kind = klartext::kindOf(block, command);
   const std::string_view name = nameOf(kind);
   const auto words = std::span<const Word>(block.words).subspan(command.words.first, command.words.count);
   if (kind == klartext::CommandKind::GlobalDefinition) return globalDefinition(block, command);
   if (kind == klartext::CommandKind::BlankForm) return blank(block.at(command.text));
+  if (leavesOut(block, command)) return;
   if (kind == klartext::CommandKind::Fn14) {
     const Quantity number = words.empty() ? Quantity() : quantity(block, words.front().value);
     if (!number.isNumber()) throw NotCarriedOver("the number of the error is known only when the program runs");

@@ -42,6 +42,8 @@ private:
   void toolCall(const language::Block& block, const language::ToolCall& call);
   void machineFunction(const language::Block& block, const language::MachineFunction& function);
   void command(const language::Block& block, const language::Command& command);
+  /// Leaves out, with a note, what changes neither where the tool goes nor what is measured.
+  bool leavesOut(const language::Block& block, const language::Command& command);
   /// $TC_DPx of what FN 17 and FN 18 know as number `number` of ID 50, in the tool's first edge.
   std::string toolDatum(const Quantity& number, const Quantity& tool) const;
   void blank(std::string_view text);

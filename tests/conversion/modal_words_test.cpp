@@ -55,6 +55,24 @@ TEST(ConvertModalWords, LeaveOutHowPathsAreTravelled) {
     EXPECT_THAT(toKlartext(sinumerikProgram(fmt::format("{}\n", word))).text, HasSubstr("NOT CARRIED OVER")) << word;
 }
 
+TEST(ConvertModalWords, LeaveOutHowPathsOfKlartextAreTravelled) {
+  for (const char* said : {"CYCL DEF 32.0 TOLERANCE\nCYCL DEF 32.1 T0.05\nCYCL DEF 32.2 HSC-MODE:1 TA5\n",
+                           "CYCL DEF 32.0 TOLERANCE\nCYCL DEF 32.1\n", "FUNCTION FEED DWELL D-TIME0.5 F-TIME5\n",
+                           "FUNCTION S-PULSE RESET\n", "MONITORING SECTION START AS \"A\"\n"}) {
+    const std::string alone = fmt::format("{}L X+50 R0 F500\n", said);
+    EXPECT_TRUE(driveAlike(klartextProgram(alone), ProgramLanguage::Klartext)) << said;
+    const conversion::Conversion there = toSinumerik(klartextProgram(alone + alone));
+    ASSERT_EQ(there.notCarriedOver.size(), 1U) << said;
+    EXPECT_EQ(there.notCarriedOver[0].severity, Severity::Note) << said;
+    EXPECT_THAT(there.notCarriedOver[0].message, HasSubstr("is left out")) << said;
+    EXPECT_THAT(there.text, Not(HasSubstr("NOT CARRIED OVER"))) << said;
+  }
+  // What prevents collisions, counts parts or makes signals for the machine is listed.
+  for (const char* kept :
+       {"FUNCTION DCM OFF\n", "FUNCTION COUNT RESET\n", "FUNCTION MODE TURN\n", "FN 19: PLC = +1 / +2\n"})
+    EXPECT_THAT(toSinumerik(klartextProgram(kept)).text, HasSubstr("NOT CARRIED OVER")) << kept;
+}
+
 /// The way is what differs: -45 degrees and +315.
 TEST(ConvertModalWords, TurnRotaryAxesTheShortestWay) {
   EXPECT_TRUE(driveAlike(sinumerikProgram("G1 C35 F3000\nC=DC(350)\nC=DC(20)\nG0 X5 C=DC(300)\nG1 C=IC(30)\n"),
