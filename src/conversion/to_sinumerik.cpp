@@ -126,6 +126,7 @@ void ToSinumerik::surveyOther(const Block& block) {
         othersFeedPerRevolution_ || (function != nullptr && function->number == feedPerRevolution);
     othersCompensate_ = othersCompensate_ || (move != nullptr && (move->compensation == RadiusCompensation::Left ||
                                                                   move->compensation == RadiusCompensation::Right));
+    if (move != nullptr && move->kind == MoveKind::SetCentre) oneCentre_ = false;  // in its own unit
   }
   compensates_ = compensates_ || othersCompensate_;
 }

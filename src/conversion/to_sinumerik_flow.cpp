@@ -177,6 +177,7 @@ void ToSinumerik::callProgram(const Block& block, const CallProgram& call) {
             "convert it too; it must be an .SPF",
             job_.programs.contains(upperCase(name)) ? Severity::Note : Severity::Warning);
   forgetPosition();
+  if (!oneCentre_) centre_ = {};
 }
 
 }  // namespace probewright::conversion

@@ -273,6 +273,24 @@ TEST(ConvertJobs, KeepSharedParametersThatCyclesWouldOverwrite) {
   }
 }
 
+/// The circle centre and the direction of arcs that a called program has set stay in effect in its caller.
+TEST(ConvertJobs, NameArcsAfterAProgramThatSetsTheirCentre) {
+  const std::string head = "0 BEGIN PGM MAIN MM\nTOOL CALL 1 Z\nL X+0 Y+0 Z+100 R0 FMAX\nCC X+5 Y+5\n";
+  const std::string arc = "CC X+5 Y+0\nC X+0 Y+0 DR- F500\n";
+  const auto isNamed = [&](const std::string& after, const std::string& sub) {
+    const Files files = {{"MAIN.H", head + "C X+10 Y+0 DR+ F500\nCALL PGM SUB\n" + after + "9 END PGM MAIN MM\n"},
+                         {"SUB.H", "0 BEGIN PGM SUB MM\n" + sub + "9 END PGM SUB MM\n"}};
+    const JobFolder folder("probewright-job-centre");
+    put(folder, files);
+    return !converted(folder, files, ProgramLanguage::Sinumerik, ".SPF").has_value();
+  };
+  EXPECT_TRUE(isNamed("C X+10 Y+0 DR+ F500\n", arc));
+  EXPECT_TRUE(isNamed("LP PR+10 PA+30 F500\n", arc));
+  EXPECT_FALSE(isNamed("CC X+5 Y+5\nC X+10 Y+0 DR+ F500\n", arc));
+  EXPECT_FALSE(isNamed("C X+10 Y+0 DR+ F500\n", "L X+20 R0 F500\nL X+10\n"));
+  EXPECT_TRUE(isNamed("CC X+5 Y+5\nC X+10 Y+0 F500\n", arc));
+}
+
 /// RET in the middle of a subprogram.
 TEST(ConvertJobs, ReturnEarly) {
   Dice dice(11);
