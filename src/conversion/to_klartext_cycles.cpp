@@ -260,6 +260,8 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
   call.cycle = definition->name;
   call.millimetre = millimetre_;
   call.probe = probe_;
+  for (const cycles::Parameter& parameter : definition->parameters)
+    if (parameter.standard) call.numbers[std::string(parameter.name)] = *parameter.standard;
   for (const Word& word : std::span<const Word>(block.words).subspan(called.arguments.first, called.arguments.count)) {
     const cycles::Parameter* parameter = definition->parameter(word.address);
     if (parameter == nullptr || !word.value.present()) continue;

@@ -76,6 +76,22 @@ TEST(ConvertSinumerikCalls, StopsAtAnyDeviationWithoutASafeArea) {
 }
 
 /// 0 turns the coordinate system, another number a rotary axis.
+/// The standard values of the cycles: an outside corner of 90 degrees, an edge along the main axis.
+TEST(ConvertSinumerikCalls, TakesStandardValuesForWhatIsLeftOut) {
+  const Named corner = {{"S_PRNUM", 1},  {"S_SETV0", 20}, {"S_SETV1", 60}, {"S_SETV3", 60},
+                        {"S_SETV4", -8}, {"S_SETV5", -8}, {"S_FA", 20},    {"S_TSA", 5}};
+  const Named edge = {{"S_PRNUM", 1}, {"S_SETV", 40}, {"S_MD", 1}, {"S_ID", 60}, {"S_FA", 10}, {"S_TSA", 5}};
+  for (const auto& [cycle, words, standard] : {std::tuple{"CYCLE961", corner, Named{{"S_MVAR", 6}}},
+                                               {"CYCLE998", edge, Named{{"S_MVAR", 5}, {"S_MA", 201}}}}) {
+    const auto textOf = [&, name = cycle](const Named& all) {
+      return toKlartext(sinumerikProgram("G0 X-8 Y-8\nG0 Z-8\n" + sinumerikCall(name, all))).text;
+    };
+    Named written = words;
+    written.insert(written.end(), standard.begin(), standard.end());
+    EXPECT_EQ(textOf(words), textOf(written)) << cycle;
+  }
+}
+
 TEST(ConvertSinumerikCalls, NamesWhatIsCorrectedByARunningValue) {
   const std::string call = "CYCLE998(105,10001,R1,1,0,0,,5,5,102,1,40)\n";
   EXPECT_TRUE(lists(toKlartext(sinumerikProgram("R1=0\n" + call)), "S_RA of CYCLE998 is known only"));
