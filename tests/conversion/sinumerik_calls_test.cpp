@@ -75,7 +75,6 @@ TEST(ConvertSinumerikCalls, StopsAtAnyDeviationWithoutASafeArea) {
   }
 }
 
-/// 0 turns the coordinate system, another number a rotary axis.
 /// The standard values of the cycles: an outside corner of 90 degrees, an edge along the main axis.
 TEST(ConvertSinumerikCalls, TakesStandardValuesForWhatIsLeftOut) {
   const Named corner = {{"S_PRNUM", 1},  {"S_SETV0", 20}, {"S_SETV1", 60}, {"S_SETV3", 60},
@@ -92,6 +91,7 @@ TEST(ConvertSinumerikCalls, TakesStandardValuesForWhatIsLeftOut) {
   }
 }
 
+/// 0 turns the coordinate system, another number a rotary axis.
 TEST(ConvertSinumerikCalls, NamesWhatIsCorrectedByARunningValue) {
   const std::string call = "CYCLE998(105,10001,R1,1,0,0,,5,5,102,1,40)\n";
   EXPECT_TRUE(lists(toKlartext(sinumerikProgram("R1=0\n" + call)), "S_RA of CYCLE998 is known only"));
