@@ -45,7 +45,8 @@ TEST(ToolData, OfSizesAreKnownByTheirNames) {
     EXPECT_EQ(isToolSize(fmt::format("$TC_DP{}", parameter)), sizes.contains(parameter)) << parameter;
   for (const char* name : {"$TC_SCP13", "$TC_SCP66", "$TC_ECP13", "$TC_ECP66"})
     EXPECT_TRUE(isToolSize(name)) << name;
-  for (const char* name : {"$TC_DPX", "$TC_SCP3", "$TC_SCP9", "$TC_SCP12", "$TC_SCP22", "$TC_SCP100", "$TC_TP2", "$TC_DP"})
+  for (const char* name :
+       {"$TC_DPX", "$TC_SCP3", "$TC_SCP9", "$TC_SCP12", "$TC_SCP22", "$TC_SCP100", "$TC_TP2", "$TC_DP"})
     EXPECT_FALSE(isToolSize(name)) << name;
   EXPECT_EQ(offsetNumber("$TC_SCP13"), 1);
   EXPECT_EQ(offsetNumber("$TC_ECP66"), 6);
