@@ -125,7 +125,10 @@ TEST(ContactOracle, FilesOfAnyFormatAndUnitAreMetWhereTheirShapesAre) {
         Bnd_Box box;
         BRepBndLib::AddOptimal(written.shape, box, Standard_False, Standard_False);
         const double size = box.CornerMin().Distance(box.CornerMax());
-        EXPECT_NEAR((read.bounds().maximum - read.bounds().minimum).norm(), size, 0.05 * size) << name;
+        const double readSize = (read.bounds().maximum - read.bounds().minimum).norm();
+        // The box counts turned faces whole, beyond their borders.
+        EXPECT_LT(readSize, 1.05 * size) << name;
+        EXPECT_GT(readSize, 0.8 * size) << name;
         EXPECT_GT(expectTrueContacts(name, read.shape(), read, random, waysInCampaign(40)), 4) << name;
       }
     }

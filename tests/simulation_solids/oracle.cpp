@@ -6,12 +6,15 @@
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_Copy.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
+#include <BRepClass_FaceClassifier.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
+#include <GeomAPI_ProjectPointOnSurf.hxx>
 #include <Geom_Surface.hxx>
+#include <Geom_SurfaceOfRevolution.hxx>
 #include <IMeshTools_Parameters.hxx>
 #include <Message_ProgressIndicator.hxx>
 #include <Poly_Triangulation.hxx>
@@ -20,6 +23,8 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Vertex.hxx>
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <ctime>
 #include <map>
@@ -178,6 +183,45 @@ Oracle::Oracle(const TopoDS_Shape& shape, double doubt) : shape_(BRepBuilderAPI_
   mesh_ = std::make_unique<MeshSolid>(std::move(mesh));
 }
 
+namespace {
+
+/// True if the place that OpenCASCADE has found in a face lies outside of it by OpenCASCADE's own classifier: on some
+/// surfaces of revolution it takes the angle with the wrong sign, and sees places beyond where the face ends.
+bool liesOutside(const BRepExtrema_DistShapeShape& distance, const TopoDS_Face& face) {
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+  const bool isTurned = surface->IsKind(STANDARD_TYPE(Geom_SurfaceOfRevolution));
+  if (!isTurned || distance.SupportTypeShape2(1) != BRepExtrema_IsInFace) return false;
+  // A surface that meets itself has several parameters there.
+  const GeomAPI_ProjectPointOnSurf projected(distance.PointOnShape2(1), surface);
+  bool isOnSurface = false;
+  for (int i = 1; i <= projected.NbPoints(); ++i) {
+    if (projected.Distance(i) > 1e-6) continue;
+    isOnSurface = true;
+    double u = 0, v = 0;
+    projected.Parameters(i, u, v);
+    const double turnV = surface->IsVPeriodic() ? surface->VPeriod() : 0;
+    for (const int turns : {0, -1, 1}) {
+      for (const int turnsV : {0, -1, 1}) {
+        const gp_Pnt2d place(u + turns * surface->UPeriod(), v + turnsV * turnV);
+        if (BRepClass_FaceClassifier(face, place, 1e-7).State() != TopAbs_OUT) return false;
+      }
+    }
+  }
+  return isOnSurface;
+}
+
+/// From a point to the edges of a face.
+double distanceToEdges(const TopoDS_Shape& vertex, const TopoDS_Face& face) {
+  double least = 1e300;
+  for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next()) {
+    const BRepExtrema_DistShapeShape distance(vertex, edges.Current());
+    if (distance.IsDone()) least = std::min(least, distance.Value());
+  }
+  return least;
+}
+
+}  // namespace
+
 Oracle::Distance Oracle::exactDistance(const Vector3& point, double about) const {
   const gp_Pnt p(point.x(), point.y(), point.z());
   const TopoDS_Shape vertex = BRepBuilderAPI_MakeVertex(p).Shape();
@@ -192,8 +236,9 @@ Oracle::Distance Oracle::exactDistance(const Vector3& point, double about) const
       ends = std::min(ends, (end - point).norm());
     const BRepExtrema_DistShapeShape distance(vertex, face.face);
     if (!distance.IsDone()) continue;
-    nearest.least = std::min(nearest.least, distance.Value());
-    double most = distance.Value();
+    const double value = liesOutside(distance, face.face) ? distanceToEdges(vertex, face.face) : distance.Value();
+    nearest.least = std::min(nearest.least, value);
+    double most = value;
     if (distance.SupportTypeShape2(1) == BRepExtrema_IsVertex) {
       const TopoDS_Vertex met = TopoDS::Vertex(distance.SupportOnShape2(1));
       most = std::max(most,
