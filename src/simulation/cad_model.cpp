@@ -27,7 +27,7 @@
 
 #include "simulation/cad_bounds.hpp"
 #include "simulation/cad_elements.hpp"
-#include "simulation/cad_kinks.hpp"
+#include "simulation/cad_pieces.hpp"
 #include "simulation/cad_vectors.hpp"
 #include "simulation/face_mesh.hpp"
 #include "simulation/memory_text.hpp"
@@ -244,7 +244,7 @@ void addElements(CadModel& model) {
 
 CadModel cadModel(const TopoDS_Shape& part, double deflection) {
   const bool meshed = isMeshed(part, deflection);
-  const TopoDS_Shape shape = meshed ? part : withoutKinks(part);
+  const TopoDS_Shape shape = meshed ? part : inPieces(part);
   BRepLib::BuildCurves3d(shape);
   if (!meshed) meshFaces(shape, deflection);
   CadModel model = exactModel(shape, deflection);

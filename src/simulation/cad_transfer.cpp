@@ -50,8 +50,8 @@
 #include "simulation/cad_corrections.hpp"
 #include "simulation/cad_edges.hpp"
 #include "simulation/cad_face.hpp"
-#include "simulation/cad_kinks.hpp"
 #include "simulation/cad_model.hpp"
+#include "simulation/cad_pieces.hpp"
 #include "simulation/cad_step_library.hpp"
 #include "simulation/cad_tori.hpp"
 #include "simulation/cad_units.hpp"
@@ -411,8 +411,8 @@ void transferCad(const TransferOrder& order, const ChildVoice& voice) {
     }
     nameOpenEdges(shape, voice);
     sharpenEdges(shape);
-    voice.say("stage looking for kinks");
-    shape = withoutKinks(shape);
+    voice.say("stage cutting the faces");
+    shape = inPieces(shape);
     // What cannot survive this must not happen in the parent.
     CadModel model = exactModel(shape, order.deflection);
     std::string bytes;

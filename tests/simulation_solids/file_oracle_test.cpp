@@ -34,8 +34,8 @@
 #include <TopoDS_Vertex.hxx>
 
 #include "oracle.hpp"
-#include "simulation/cad_kinks.hpp"
 #include "simulation/cad_model.hpp"
+#include "simulation/cad_pieces.hpp"
 #include "simulation/cad_solid.hpp"
 #include "worlds_of_faces.hpp"
 
@@ -313,7 +313,7 @@ void judge(const NamedShape& named, const FileKind& kind, const std::string& rou
     const bool bodies = read.model().closedBodies > 0;
     // Numbers of IGES files that OpenCASCADE writes have nine digits.
     const double doubt = kind.isIges() ? 1e-8 * (read.bounds().maximum - read.bounds().minimum).norm() : 0;
-    expectTrueContacts(name, withoutKinks(bodies ? named.shape : facesOf(named.shape)), read, random, ways, doubt);
+    expectTrueContacts(name, inPieces(bodies ? named.shape : facesOf(named.shape)), read, random, ways, doubt);
   } else {
     ADD_FAILURE() << name << ": " << format(solid.error());
   }

@@ -73,7 +73,7 @@ const std::string kNever = "\n";
 TEST_F(StoppedImport, EndsInWhicheverPhaseItIs) {
   const std::vector<std::string> stages = read(kNever).stages;
   std::filesystem::remove_all(cache());
-  for (const char* stage : {"reading the file", "building the part", "looking for kinks", "meshing the faces",
+  for (const char* stage : {"reading the file", "building the part", "cutting the faces", "meshing the faces",
                             "preparing the faces", "making it ready"}) {
     EXPECT_THAT(stages, Contains(HasSubstr(stage)));
     const Told told = read(stage);
