@@ -26,6 +26,7 @@
 #include <stdexcept>
 
 #include "simulation/cad_bounds.hpp"
+#include "simulation/cad_elementary.hpp"
 #include "simulation/cad_elements.hpp"
 #include "simulation/cad_pieces.hpp"
 #include "simulation/cad_vectors.hpp"
@@ -244,7 +245,7 @@ void addElements(CadModel& model) {
 
 CadModel cadModel(const TopoDS_Shape& part, double deflection) {
   const bool meshed = isMeshed(part, deflection);
-  const TopoDS_Shape shape = meshed ? part : inPieces(part);
+  const TopoDS_Shape shape = meshed ? part : inPieces(withElementarySurfaces(part));
   BRepLib::BuildCurves3d(shape);
   if (!meshed) meshFaces(shape, deflection);
   CadModel model = exactModel(shape, deflection);

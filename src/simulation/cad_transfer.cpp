@@ -49,6 +49,7 @@
 #include "simulation/cad_cones.hpp"
 #include "simulation/cad_corrections.hpp"
 #include "simulation/cad_edges.hpp"
+#include "simulation/cad_elementary.hpp"
 #include "simulation/cad_face.hpp"
 #include "simulation/cad_model.hpp"
 #include "simulation/cad_pieces.hpp"
@@ -411,6 +412,7 @@ void transferCad(const TransferOrder& order, const ChildVoice& voice) {
     }
     nameOpenEdges(shape, voice);
     sharpenEdges(shape);
+    takeElementarySurfaces(shape);
     voice.say("stage cutting the faces");
     shape = inPieces(shape);
     // What cannot survive this must not happen in the parent.
