@@ -186,7 +186,8 @@ Oracle::Oracle(const TopoDS_Shape& shape, double doubt) : shape_(BRepBuilderAPI_
 namespace {
 
 /// True if the place that OpenCASCADE has found in a face lies outside of it by OpenCASCADE's own classifier: on some
-/// surfaces of revolution it takes the angle with the wrong sign, and sees places beyond where the face ends.
+/// surfaces of revolution it takes the angle with the wrong sign, and sees places beyond where the face ends. The
+/// classifier errs, too, where a curve that is turned lies on both sides of the axis.
 bool liesOutside(const BRepExtrema_DistShapeShape& distance, const TopoDS_Face& face) {
   const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
   const bool isTurned = surface->IsKind(STANDARD_TYPE(Geom_SurfaceOfRevolution));
@@ -236,7 +237,9 @@ Oracle::Distance Oracle::exactDistance(const Vector3& point, double about) const
       ends = std::min(ends, (end - point).norm());
     const BRepExtrema_DistShapeShape distance(vertex, face.face);
     if (!distance.IsDone()) continue;
-    const double value = liesOutside(distance, face.face) ? distanceToEdges(vertex, face.face) : distance.Value();
+    const Vector3 place = vector(distance.PointOnShape2(1));
+    const bool isFarOff = !mesh_->firstContact(place, place, tolerance_) && liesOutside(distance, face.face);
+    const double value = isFarOff ? distanceToEdges(vertex, face.face) : distance.Value();
     nearest.least = std::min(nearest.least, value);
     double most = value;
     if (distance.SupportTypeShape2(1) == BRepExtrema_IsVertex) {
