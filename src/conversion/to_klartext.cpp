@@ -122,6 +122,7 @@ Conversion ToKlartext::run() {
   surveyFlow();
   surveyModes();
   surveyPlaces();
+  fromBeyondATurn_ = positionsFromBeyondATurn(program_, graph_, job_);
   if (millimetre_ != 1) formulas_.countInches();
   rounded_.emplace(program_, job_);
   Diagnostics ignored;

@@ -15,6 +15,7 @@
 #include "conversion/klartext_formulas.hpp"
 #include "conversion/lacking_rows.hpp"
 #include "conversion/output.hpp"
+#include "conversion/rotary_turns.hpp"
 #include "conversion/rounded_values.hpp"
 
 /// Writes a SINUMERIK program in Klartext, block by block.
@@ -306,6 +307,7 @@ private:
   std::map<std::uint64_t, Modes> entries_;  ///< by the offset of blocks that several ways lead to
   bool measuresAsCycles_ = false;  ///< measuring blocks stand for cycles 3 and 4, with what leads the probe back
   std::map<std::uint64_t, Beside> besides_;  ///< the same
+  std::set<std::uint64_t> fromBeyondATurn_;  ///< offsets of positions of rotary axes
   std::array<bool, 3> shiftsEver_{};         ///< X, Y, Z
   bool feedsPerRevolution_ = false;          ///< G95 stands in the program or in another one of the job
   bool orientsSpindle_ = false;              ///< the same of SPOS

@@ -325,6 +325,8 @@ std::set<int> ToKlartext::wantedAfter(const Block& block) const {
 }
 
 void ToKlartext::adopt(const Block& block) {
+  if (fromBeyondATurn_.contains(block.position.offset))
+    out_.listOnce(block, fromBeyondATurn, withinATurn, Severity::Note);
   relied_ = false;
   if (const auto beside = besides_.find(block.position.offset); beside != besides_.end()) {
     for (std::size_t i = 0; i < 3; ++i)

@@ -137,6 +137,7 @@ Conversion ToSinumerik::run() {
     surveyFlow();
     surveyModes();
     surveyPlaces();
+    fromBeyondATurn_ = positionsFromBeyondATurn(program_, graph_, job_);
     if (program_.unit() == klartext::Unit::Inch) {
       millimetre_ = 1 / millimetresOfInch;
       ballRadius_ = ballRadius_ * millimetre_;

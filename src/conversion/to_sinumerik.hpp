@@ -14,6 +14,7 @@
 #include "conversion/flow_graph.hpp"
 #include "conversion/lacking_rows.hpp"
 #include "conversion/output.hpp"
+#include "conversion/rotary_turns.hpp"
 #include "conversion/sinumerik_formulas.hpp"
 #include "conversion/sinumerik_tasks.hpp"
 
@@ -260,6 +261,7 @@ private:
   std::vector<std::string> callStack_;              ///< its definitions
   std::map<std::uint64_t, Modes> entries_;          ///< by the offset of blocks that several ways lead to
   std::map<std::uint64_t, bool> besides_;           ///< the same: besidePath_
+  std::set<std::uint64_t> fromBeyondATurn_;         ///< offsets of positions of rotary axes
 
   // Where the text has come to.
   char toolAxis_ = 'Z';

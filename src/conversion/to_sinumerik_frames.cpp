@@ -294,6 +294,8 @@ void ToSinumerik::surveyModes() {
 }
 
 void ToSinumerik::adopt(const Block& block) {
+  if (fromBeyondATurn_.contains(block.position.offset))
+    out_.listOnce(block, fromBeyondATurn, withinATurn, Severity::Note);
   if (const auto beside = besides_.find(block.position.offset); beside != besides_.end()) besidePath_ = beside->second;
   const auto found = entries_.find(block.position.offset);
   if (found == entries_.end()) return;

@@ -170,6 +170,44 @@ TEST(ConvertRotaryTable, AlignsWithCycle403) {
   }
 }
 
+/// On an axis that turns endlessly: after -35 degrees a HEIDENHAIN control turns by +55 degrees to 20, a SINUMERIK by
+/// -305.
+TEST(ConvertRotaryTable, TellsThatAnEndlessAxisMayTurnTheOtherWayRound) {
+  const auto told = [](const conversion::Conversion& there) {
+    return std::ranges::count_if(there.notCarriedOver, [](const Diagnostic& each) {
+      return each.severity == Severity::Note && each.message.find("the other way round") != std::string::npos;
+    });
+  };
+  Dice dice(35);
+  const PlantedPart part = plant(dice, ControlKind::TNC640, 0, 0, "mill5-table-table");
+  for (const auto& [blocks, differs] : {std::pair("L C-35 FMAX\nL C+20 FMAX\n", true),
+                                        {"L C-35 R0 FMAX\nL C-20 FMAX\n", true},
+                                        {"L IC-35 FMAX\nL C+20 FMAX\nL IC-30 FMAX\nL C+10 FMAX\n", true},
+                                        {"L C+350 FMAX\nL IC+20 FMAX\nL C+10 FMAX\n", true},
+                                        {"Q1 = -35\nL C+Q1 FMAX\nL C+20 FMAX\n", true},
+                                        {"LBL 1\nL C+20 FMAX\nL IC-35 FMAX\nCALL LBL 1 REP 1\n", true},
+                                        {"L C+35 FMAX\nL C-20 FMAX\n", false},
+                                        {"L C-35 FMAX\nL IC+50 FMAX\n", false},
+                                        {"L C+35 FMAX\nL C+350 FMAX\nL C+10 FMAX\n", false}}) {
+    SCOPED_TRACE(blocks);
+    const Twin original = runKlartext(klartextProgram(blocks), part);
+    const Twin there = runConverted(original, part);
+    ASSERT_TRUE(ranWhole(original));
+    ASSERT_TRUE(ranWhole(there));
+    const std::size_t c = part.bench.setup.world.truth.machine.axes.size() - 1;
+    EXPECT_EQ(std::abs(original.axes[c] - there.axes[c]) > 1, differs);
+    EXPECT_EQ(told(toSinumerik(original.text)), differs ? 1 : 0);
+  }
+  for (const auto& [blocks, differs] : {std::pair("C-35\nC20\nC-10\nC30\n", true),
+                                        {"G91 C-35\nG90 C20\n", true},
+                                        {"C=DC(350)\nC=20\n", true},
+                                        {"C35\nC-20\n", false},
+                                        {"C-35\nC=DC(20)\n", false}}) {
+    SCOPED_TRACE(blocks);
+    EXPECT_EQ(told(toKlartext(fmt::format("G17 G90 G710\nT1 M6 D1\nG54\nG0 Z100\n{}M30\n", blocks))), differs ? 1 : 0);
+  }
+}
+
 TEST(ConvertRotaryTable, CorrectsItsZeroWithCycle1410) {
   Dice dice(1410);
   for (int world = 0; world < worlds; ++world) {
