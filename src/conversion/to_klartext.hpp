@@ -214,7 +214,8 @@ private:
   /// CYCLE150: whether the cycles that follow write a log.
   void measuringLog(const language::Block& block, const Call& call);
   Place here();
-  /// Lists it if the probe does not look for the surface as far as the SINUMERIK cycle does.
+  /// Lists it if the probe does not look for the surface as far as the SINUMERIK cycle does; tells it, once, if it
+  /// finds more.
   void requireReach(const language::Block& block, const MeasuringTask& task);
   /// Writes the touch probe cycle that carries out the task; its number.
   std::string writeTask(const MeasuringTask& task);
