@@ -366,7 +366,7 @@ private:
   MeasuringTask cycle976() {
     MeasuringTask task;
     task.millimetre = call_.millimetre;
-    task.path = number("S_FA");
+    task.path = task.beyond = number("S_FA");
     const int body = call_.digit("S_MVAR", 1);
     if (body != 0 && call_.digit("S_MVAR", 5) != 0)
       losses_.push_back("S_MVAR: touch probe cycles calibrate the positional deviation of the ball, too");

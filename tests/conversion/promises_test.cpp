@@ -213,12 +213,12 @@ TEST(ConvertPromises, CountsShiftsIntoTouchProbeCycles) {
   // The first touch of the hole lies in the direction of the turned axis, and so it does without the rotation.
   const conversion::Conversion hole = toKlartext(sinumerikProgram(
       "ROT Z20\n" +
-      sinumerikCall("CYCLE977", {{"S_MVAR", 1}, {"S_SETV", 40}, {"S_STA1", 15}, {"S_FA", 4}, {"S_TSA", 8}})));
+      sinumerikCall("CYCLE977", {{"S_MVAR", 1}, {"S_SETV", 40}, {"S_STA1", 15}, {"S_FA", 5}, {"S_TSA", 8}})));
   EXPECT_THAT(hole.text, HasSubstr("Q325=+35 "));
   // A pocket along turned axes has no touch probe cycle.
   const conversion::Conversion pocket = toKlartext(sinumerikProgram(
       "ROT Z5\n" +
-      sinumerikCall("CYCLE977", {{"S_MVAR", 5}, {"S_SETV0", 30}, {"S_SETV1", 20}, {"S_FA", 4}, {"S_TSA", 8}})));
+      sinumerikCall("CYCLE977", {{"S_MVAR", 5}, {"S_SETV0", 30}, {"S_SETV1", 20}, {"S_FA", 5}, {"S_TSA", 8}})));
   ASSERT_EQ(pocket.notCarriedOver.size(), 1U) << pocket.text;
   EXPECT_THAT(pocket.notCarriedOver[0].message, HasSubstr("permit no rotation"));
 }
@@ -400,7 +400,7 @@ TEST(ConvertPromises, NamesWhatHasNoTwinOfItsOwn) {
   EXPECT_THAT(shown.text, Not(HasSubstr("ERROR = 3001")));
   // Fine offset and preset are one: a note says so.
   const conversion::Conversion fine = toKlartext(sinumerikProgram(
-      sinumerikCall("CYCLE977", {{"S_MVAR", 101}, {"S_KNUM", 1}, {"S_SETV", 40}, {"S_FA", 4}, {"S_TSA", 8}})));
+      sinumerikCall("CYCLE977", {{"S_MVAR", 101}, {"S_KNUM", 1}, {"S_SETV", 40}, {"S_FA", 5}, {"S_TSA", 8}})));
   ASSERT_EQ(fine.notCarriedOver.size(), 1U) << fine.text;
   EXPECT_EQ(fine.notCarriedOver[0].severity, Severity::Note);
   EXPECT_THAT(fine.notCarriedOver[0].message, HasSubstr("fine offset"));

@@ -288,12 +288,33 @@ TEST(ConvertReach, TouchProbeFindsWhatSinumerikCyclesFind) {
   }
 }
 
+/// CYCLE976 looks as far behind the wall of the ring as it begins in front of it.
+TEST(ConvertReach, CalibrationInARingLooksBehindItsWall) {
+  for (const double off : {1.5, 5.0}) {
+    const PlantedPart part = worldOf(features[0], off, 10);
+    const Twin original = runSinumerik("G17 G90 G710\nT1 M6 D1\nG54\nG0 Z100\nG0 X0 Y0\nG0 Z-10\n" +
+                                           sinumerikCall("CYCLE976", {{"S_MVAR", 2},
+                                                                      {"S_PRNUM", 1},
+                                                                      {"S_SETV", 40},
+                                                                      {"S_MA", 1},
+                                                                      {"S_FA", 8},
+                                                                      {"S_TSA", 20},
+                                                                      {"S_NMSP", 1}}) +
+                                           "G0 Z40\nM30\n",
+                                       part);
+    EXPECT_TRUE(original.finished) << original.why;
+    const conversion::Conversion there =
+        converted(original.text, ProgramLanguage::Sinumerik, ControlKind::TNC640, {.setUp = 2, .travel = 10});
+    EXPECT_EQ(run(there.text, ProgramLanguage::Klartext, part).finished, off < 2) << there.text;
+    EXPECT_TRUE(lists(there, "looks for the surface along 16 mm")) << there.text;
+  }
+}
+
 /// In a hole of 40 mm a touch that begins 38 mm in front of the wall begins at the other one.
 TEST(ConvertReach, TellsWhereASinumerikCycleMayTouchTheOppositeWall) {
   for (const double path : {19.0, 38.0}) {
     const PlantedPart part = worldOf(features[0], 0, 40);
-    const Twin original =
-        runSinumerik("G17 G90 G710\nT1 M6 D1\nG54\nG0 Z100\n" + call977(1, path, 20) + "M30\n", part);
+    const Twin original = runSinumerik("G17 G90 G710\nT1 M6 D1\nG54\nG0 Z100\n" + call977(1, path, 20) + "M30\n", part);
     EXPECT_EQ(original.finished, path < 20) << original.why;
     const conversion::Conversion there =
         converted(original.text, ProgramLanguage::Sinumerik, ControlKind::TNC640, {.setUp = 2, .travel = 40});

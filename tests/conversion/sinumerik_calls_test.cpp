@@ -111,7 +111,7 @@ TEST(ConvertSinumerikCalls, NamesOtherDataSetsOfTheProbe) {
 TEST(ConvertSinumerikCalls, NamesCalibrationsOfOneDirection) {
   const auto listed = [](int variant, int touches) {
     const Named ring = {{"S_MVAR", variant}, {"S_PRNUM", 1}, {"S_SETV", 40},     {"S_MA", 1},
-                        {"S_FA", 4},         {"S_TSA", 8},   {"S_NMSP", touches}};
+                        {"S_FA", 5},         {"S_TSA", 8},   {"S_NMSP", touches}};
     return !toKlartext(sinumerikProgram(sinumerikCall("CYCLE976", ring))).notCarriedOver.empty();
   };
   for (const int variant : {1, 2, 3}) {
