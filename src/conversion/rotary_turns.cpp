@@ -39,8 +39,7 @@ bool follow(const Block& block, Beyond& beyond) {
     if (move == nullptr) continue;
     for (const Word& word : std::span<const Word>(block.words).subspan(move->words.first, move->words.count)) {
       if (word.address < first || word.address > last) continue;
-      const bool absolute =
-          word.mode == WordMode::Absolute || (word.mode == WordMode::Plain && !beyond.countsFurther);
+      const bool absolute = word.mode == WordMode::Absolute || (word.mode == WordMode::Plain && !beyond.countsFurther);
       comesFromBeyond = comesFromBeyond || (absolute && beyond.axes.contains(word.address));
       const auto position = literalOf(block, word.value);
       const bool within = absolute && position && *position >= 0 && *position < turn;
@@ -80,7 +79,8 @@ std::set<std::uint64_t> positionsFromBeyondATurn(Program& program, const FlowGra
   std::set<std::uint64_t> found;
   for (auto& [offset, beyond] :
        modesWhereWaysMeet<Beyond>(graph, followers(graph, neutral), followBlock, agree, start, positions)) {
-    const auto place = std::ranges::find(graph.blocks(), offset, [](const FlowBlock& each) { return each.position.offset; });
+    const auto place =
+        std::ranges::find(graph.blocks(), offset, [](const FlowBlock& each) { return each.position.offset; });
     program.parse(place->position, block, ignored);
     if (follow(block, beyond)) found.insert(offset);
   }

@@ -11,6 +11,7 @@
 
 #include "conversion/call.hpp"
 #include "conversion/conversion.hpp"
+#include "conversion/corner_room.hpp"
 #include "conversion/flow_graph.hpp"
 #include "conversion/klartext_formulas.hpp"
 #include "conversion/lacking_rows.hpp"
@@ -180,12 +181,10 @@ private:
   // to_klartext_moves.cpp
   void move(const language::Block& block, const language::Move& move);
   void arc(const language::Block& block, const language::Move& move, bool clockwise);
-  /// Main and minor axis, as far as the program tells them.
-  using PlanePoint = std::array<std::optional<Quantity>, 2>;
   /// RND and CHR, at the end of the path in this block, which begins at `from`.
   void corner(const language::Block& block, std::span<const language::Word> words, const PlanePoint& from);
-  /// Lists a corner that is larger than one of the two lines that it joins, where the program tells their ends.
-  void listTooLarge(const language::Block& block, std::span<const language::Word> words, const PlanePoint& from,
+  /// Lists a corner that is larger than one of the two lines that it joins, and tells one that may be.
+  void listTooLarge(const language::Block& block, Corner corner, const Quantity& size, const PlanePoint& from,
                     const PlanePoint& to);
   struct NextPath {
     std::optional<language::MoveKind> kind;     ///< nothing: as the active G function says
@@ -329,9 +328,9 @@ private:
   language::MoveKind motion_ = language::MoveKind::Rapid;
   bool incremental_ = false;
   std::string compensation_ = "R0";
-  std::string travelled_ = "R0";    ///< radius compensation of the last path
-  bool travelledAtRapid_ = false;   ///< the last path was at rapid traverse
-  double takenByCorner_ = 0;        ///< of the path that follows, by the corner that begins it
+  std::string travelled_ = "R0";   ///< radius compensation of the last path
+  bool travelledAtRapid_ = false;  ///< the last path was at rapid traverse
+  CornerRoom room_;
   std::string pendingTool_, tool_;  ///< to be changed to, in the spindle
   bool measuredWithTool_ = false;   ///< a cycle has measured with the tool in the spindle
   std::optional<int> activeRow_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 #include "conversion/sinumerik_formulas.hpp"
@@ -102,32 +101,16 @@ void ToKlartext::listCompensatedPath(const Block& block, std::span<const Word> w
   }
 }
 
-void ToKlartext::listTooLarge(const Block& block, std::span<const Word> words, const PlanePoint& from,
+void ToKlartext::listTooLarge(const Block& block, Corner corner, const Quantity& size, const PlanePoint& from,
                               const PlanePoint& to) {
-  const double takenBefore = std::exchange(takenByCorner_, 0);
-  const auto apart = [](const PlanePoint& begin, const PlanePoint& end) -> std::optional<std::array<double, 2>> {
-    std::array<double, 2> way{};
-    for (std::size_t i = 0; i < 2; ++i) {
-      if (!begin[i] || !end[i] || !(*end[i] - *begin[i]).isNumber()) return std::nullopt;
-      way[i] = (*end[i] - *begin[i]).number();
-    }
-    return std::hypot(way[0], way[1]) > 0 ? std::optional(way) : std::nullopt;
-  };
-  const PlanePoint at = {position_[0], position_[1]};
-  const auto first = apart(from, at), second = apart(at, to);
-  const Word* round = find(words, "RND");
-  const Operand& written = (round != nullptr ? round : find(words, "CHR"))->value;
-  if (!first || !second || !written.isLiteral()) return;
-  const double size = written.number;
-  const double turn = std::atan2((*first)[0] * (*second)[1] - (*first)[1] * (*second)[0],
-                                 (*first)[0] * (*second)[0] + (*first)[1] * (*second)[1]);
-  takenByCorner_ = round != nullptr ? size * std::tan(std::abs(turn) / 2) : size;
-  const double least =
-      std::min(std::hypot((*first)[0], (*first)[1]) - takenBefore, std::hypot((*second)[0], (*second)[1]));
-  if (takenByCorner_ <= least + 1e-6) return;
-  out_.list(block,
-            "this corner is larger than one of its two lines: a HEIDENHAIN control stops, a SINUMERIK makes it smaller",
-            "make it smaller");
+  switch (room_.fitOf(corner, size, from, {position_[0], position_[1]}, to)) {
+    case CornerRoom::Fit::Fits:
+      return;
+    case CornerRoom::Fit::TooLarge:
+      return out_.list(block, tooLargeCorner, "make it smaller");
+    case CornerRoom::Fit::Unknown:
+      return out_.list(block, cornerOfUnknownRoom, "see that it fits", Severity::Note);
+  }
 }
 
 void ToKlartext::corner(const Block& block, std::span<const Word> words, const PlanePoint& from) {
@@ -136,7 +119,7 @@ void ToKlartext::corner(const Block& block, std::span<const Word> words, const P
   const Word* round = find(words, "RND");
   const Word* chamfer = find(words, "CHR");
   if (round == nullptr && chamfer == nullptr) {
-    takenByCorner_ = 0;
+    room_.pathWithoutCorner();
     if (cornerFeed != nullptr) out_.lose(block, "FRC without RND or CHR in its block");
     return;
   }
@@ -152,7 +135,9 @@ void ToKlartext::corner(const Block& block, std::span<const Word> words, const P
   } else if (chamfer != nullptr && (isArc(motion_) || isArc(kind))) {
     out_.list(block, "a HEIDENHAIN control chamfers between straight lines only", "write the chamfer as a line");
   }
-  listTooLarge(block, words, isArc(motion_) ? PlanePoint() : from, next && !isArc(kind) ? next->to : PlanePoint());
+  listTooLarge(block, round != nullptr ? Corner::Rounding : Corner::Chamfer,
+               quantity(block, (round != nullptr ? round : chamfer)->value), isArc(motion_) ? PlanePoint() : from,
+               next && !isArc(kind) ? next->to : PlanePoint());
   if (motion_ == MoveKind::Rapid || kind == MoveKind::Rapid) {
     out_.list(block, "a corner between paths at rapid traverse is travelled at another speed on a HEIDENHAIN control",
               "give the paths before and after the corner a feed");

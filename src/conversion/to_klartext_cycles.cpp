@@ -130,12 +130,11 @@ void ToKlartext::requireReach(const Block& block, const MeasuringTask& task) {
   const bool collides = isInside(task.feature) && !isCorner(task.feature) && task.size[0].isNumber() &&
                         task.path.isNumber() && task.path.number() > task.size[0].number() / 2;
   if (collides || length < probe_.travel - 1e-6) {
-    out_.listOnce(
-        block,
-        fmt::format("S_FA: this program may stop where the one that is written measures: {}",
-                    collides ? "it begins beyond the middle and may touch the opposite wall on its way there"
-                             : "a touch probe looks for the surface along all its DIST, which is longer"),
-        "choose S_FA as the feature needs it", Severity::Note);
+    out_.listOnce(block,
+                  fmt::format("S_FA: this program may stop where the one that is written measures: {}",
+                              collides ? "it begins beyond the middle and may touch the opposite wall on its way there"
+                                       : "a touch probe looks for the surface along all its DIST, which is longer"),
+                  "choose S_FA as the feature needs it", Severity::Note);
   }
   if (length <= std::max(probe_.travel, listedReach_) + 1e-6) return;
   listedReach_ = length;

@@ -11,6 +11,7 @@
 
 #include "conversion/call.hpp"
 #include "conversion/conversion.hpp"
+#include "conversion/corner_room.hpp"
 #include "conversion/flow_graph.hpp"
 #include "conversion/lacking_rows.hpp"
 #include "conversion/output.hpp"
@@ -149,10 +150,13 @@ private:
   void listCompensation(const language::Block& block, const language::Instruction& instruction);
   /// Adds RND= or CHR= to the path block that the corner belongs to.
   void corner(const language::Block& block, const language::Move& move);
-  std::string cornerWord(const language::Block& block, const language::Move& move);
+  std::string cornerWord(const language::Block& block, const language::Move& move, const Quantity& size);
+  /// Where the path of a later block ends that begins here.
+  PlanePoint endOf(const language::Block& block, const language::Move& move) const;
   /// The path block that comes next, if only a comment lies between; else nothing.
   struct NextPath {
     bool rapid = false, arc = false, hasFeed = false, compensates = false;
+    PlanePoint to;  ///< where it ends
   };
   std::optional<NextPath> nextPath(const language::Block& block);
   /// The block names coordinates of the working plane.
@@ -287,8 +291,10 @@ private:
   struct LastPath {
     language::BlockPosition next{};
     bool rapid = false, arc = false, inPlane = false, skippable = false;
+    PlanePoint from;
   };
   LastPath lastPath_;  ///< of the block that `lastMove_` comes of
+  CornerRoom room_;
   std::optional<language::RadiusCompensation> compensation_ = language::RadiusCompensation::Off;
   bool feedOfOtherKind_ = false;  ///< M136 or M137 came after the last F
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "conversion/modes.hpp"
 #include "conversion/to_sinumerik.hpp"
 
 /// Radius compensation, roundings and chamfers of HEIDENHAIN programs in the language of a SINUMERIK.
@@ -73,13 +74,25 @@ bool ToSinumerik::movesInPlane(const Block& block, const Move& move) const {
          });
 }
 
-std::string ToSinumerik::cornerWord(const Block& block, const Move& move) {
-  const auto words = std::span<const Word>(block.words).subspan(move.words.first, move.words.count);
-  const auto size = std::ranges::find(words, addressOf("R"), &Word::address);
-  const Quantity value = size == words.end() ? Quantity() : quantity(block, size->value);
+std::string ToSinumerik::cornerWord(const Block& block, const Move& move, const Quantity& size) {
   const std::string cornerFeed =
       move.feed.present() ? fmt::format(" FRC={}", sinumerikText(feed(block, move.feed))) : std::string();
-  return fmt::format(" {}={}{}", move.kind == MoveKind::Rounding ? "RND" : "CHR", sinumerikText(value), cornerFeed);
+  return fmt::format(" {}={}{}", move.kind == MoveKind::Rounding ? "RND" : "CHR", sinumerikText(size), cornerFeed);
+}
+
+PlanePoint ToSinumerik::endOf(const Block& block, const Move& move) const {
+  PlanePoint end = {position_[0], position_[1]};
+  for (const Word& word : std::span<const Word>(block.words).subspan(move.words.first, move.words.count)) {
+    const auto index = planeIndex(word.address);
+    if (!index || *index > 1) continue;
+    const auto value = literalOf(block, word.value);
+    auto& coordinate = end[*index];
+    const bool known = value && (word.mode != WordMode::Incremental || coordinate);
+    coordinate = !known                               ? std::optional<Quantity>()
+                 : word.mode == WordMode::Incremental ? *coordinate + *value
+                                                      : Quantity(*value);
+  }
+  return move.polar ? PlanePoint() : end;
 }
 
 std::optional<ToSinumerik::NextPath> ToSinumerik::nextPath(const Block& block) {
@@ -97,7 +110,8 @@ std::optional<ToSinumerik::NextPath> ToSinumerik::nextPath(const Block& block) {
                     .arc = isArc(move),
                     .hasFeed = move.feed.present(),
                     .compensates = compensates_ && move.compensation != RadiusCompensation::Unchanged &&
-                                   compensation_ != move.compensation};
+                                   compensation_ != move.compensation,
+                    .to = endOf(next, move)};
   }
   return std::nullopt;
 }
@@ -126,8 +140,23 @@ void ToSinumerik::corner(const Block& block, const Move& move) {
               "this corner is travelled at the feed of the path before it, on a SINUMERIK at that of the path after it",
               "write the feed in the block of the corner");
   }
+  const auto words = std::span<const Word>(block.words).subspan(move.words.first, move.words.count);
+  const auto given = std::ranges::find(words, addressOf("R"), &Word::address);
+  const Quantity size = given == words.end() ? Quantity() : quantity(block, given->value);
+  switch (room_.fitOf(move.kind == MoveKind::Rounding ? Corner::Rounding : Corner::Chamfer, size,
+                      lastPath_.arc ? PlanePoint() : lastPath_.from, {position_[0], position_[1]},
+                      next && !next->arc ? next->to : PlanePoint())) {
+    case CornerRoom::Fit::Fits:
+      break;
+    case CornerRoom::Fit::TooLarge:
+      out_.list(block, tooLargeCorner, "make it smaller");
+      break;
+    case CornerRoom::Fit::Unknown:
+      out_.list(block, cornerOfUnknownRoom, "see that it fits", Severity::Note);
+      break;
+  }
   std::string& path = out_.at(lastMove_ - 1);
-  path.insert(std::min(path.find(" ;"), path.size()), cornerWord(block, move));
+  path.insert(std::min(path.find(" ;"), path.size()), cornerWord(block, move, size));
   lastMove_ = 0;  // it has its corner
 }
 

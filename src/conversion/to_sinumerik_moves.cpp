@@ -154,6 +154,7 @@ void ToSinumerik::move(const Block& block, const Move& move) {
     return corner(block, move);
   }
   listFeedOfOtherKind(block, move);
+  const PlanePoint from = {position_[0], position_[1]};
   std::string compensation;
   if (compensates_ && move.compensation == RadiusCompensation::Off) compensation = "G40 ";
   if (move.compensation == RadiusCompensation::Left) compensation = "G41 ";
@@ -217,12 +218,14 @@ void ToSinumerik::move(const Block& block, const Move& move) {
     if (!neither) besidePath_ = false;
   }
   out_.line(compensation + path + words + ending);
+  if (!program_.cornerFollows(block.next)) room_.pathWithoutCorner();
   lastMove_ = out_.size();
   lastPath_ = {.next = block.next,
                .rapid = move.rapid,
                .arc = move.kind != MoveKind::Linear && move.kind != MoveKind::Rapid,
                .inPlane = movesInPlane(block, move),
-               .skippable = block.skippable};
+               .skippable = block.skippable,
+               .from = from};
 }
 
 }  // namespace probewright::conversion

@@ -139,6 +139,43 @@ TEST(ConvertCorners, NameThoseThatAreLargerThanTheirLines) {
     EXPECT_TRUE(goesTheSameWayBack(blocks)) << blocks;
 }
 
+/// On the way to a SINUMERIK, which goes on where the original program stops.
+TEST(ConvertCorners, NameThoseThatStopTheOriginalProgram) {
+  const PlantedPart part = plainTable();
+  for (const char* blocks :
+       {"L X+20\nRND R21\nL Y+50\n", "L X+50\nRND R21\nL Y+20\n", "L X+20\nCHF 21\nL Y+50\n",
+        "L X+50\nRND R12\nL Y+20\nRND R9\nL X+0\n", "L X+50\nRND R21\nL IY+20\n", "L X+20\nRND R10\nL X+0 Y+5\n"}) {
+    const Twin original = runKlartext(fromKlartext(blocks), part);
+    EXPECT_FALSE(original.finished) << blocks;
+    const conversion::Conversion there = toSinumerik(original.text);
+    EXPECT_TRUE(lists(there, "larger than one of its two lines")) << there.text;
+  }
+  for (const char* blocks : {"L X+20\nRND R19\nL Y+50\n", "L X+50\nRND R11\nL Y+20\nRND R9\nL X+0\n",
+                             "L X+50\nRND R12\nL Y+20\nL X+0\nRND R9\nL Y+0\n"})
+    EXPECT_TRUE(goesTheSameWay(blocks)) << blocks;
+}
+
+/// Beside arcs, and where the running program knows sizes or ends of lines.
+TEST(ConvertCorners, TellWhereTheirRoomIsNotKnown) {
+  const auto told = [](const conversion::Conversion& there) {
+    return std::ranges::count_if(there.notCarriedOver, [](const Diagnostic& each) {
+      return each.severity == Severity::Note && each.message.find("whether this corner fits") != std::string::npos;
+    });
+  };
+  for (const auto& [blocks, times] : {std::pair("L X+20\nRND R5\nL Y+50\n", 0),
+                                      {"Q1 = 90\nL X+20\nRND RQ1\nL Y+50\n", 1},
+                                      {"Q1 = 2\nL X+Q1\nCHF 5\nL Y+50\n", 1},
+                                      {"L X+20\nRND R5\nL Y+Q1\n", 1},
+                                      {"L X+20\nRND R5\nCR X+40 Y+30 R+25 DR-\nRND R4\nL Y-20\n", 2},
+                                      {"L X+20\nRND R5\nL Y+Q1\nRND R5\nL X+80\nRND R5\nL Y+90\n", 3}})
+    EXPECT_EQ(told(toSinumerik(fromKlartext(blocks))), times) << blocks;
+  for (const auto& [blocks, times] : {std::pair("G1 X20 RND=5\nY50\n", 0),
+                                      {"R1=90\nG1 X20 RND=R1\nY50\n", 1},
+                                      {"R1=2\nG1 X=R1 CHR=5\nY50\n", 1},
+                                      {"G3 X-17 Y57 CR=30 RND=2 F60\nG1 X20 Y77\n", 1}})
+    EXPECT_EQ(told(toKlartext(fromSinumerik(blocks))), times) << blocks;
+}
+
 /// A rounding beside an arc touches it elsewhere than the corner was.
 TEST(ConvertCorners, RoundBesideArcs) {
   EXPECT_TRUE(goesTheSameWay("L X+20 F60\nRND R5\nCR X+40 Y+30 R+25 DR-\nRND R4\nL Y-20\n"));
