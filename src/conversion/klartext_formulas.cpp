@@ -22,7 +22,9 @@ using namespace language;
 namespace {
 
 constexpr int firstHelper = 1900;
-constexpr int lastHelper = 1999;
+constexpr int lastHelper = 1979;
+constexpr int firstArgument = lastHelper + 1;
+constexpr int lastArgument = 1999;
 constexpr int firstResult = 1700;
 
 bool isParameter(std::string_view text) {
@@ -83,7 +85,7 @@ int sharedParameter(int index) {
       move(number);
     for (int number = firstResult; number < firstResult + results; ++number)
       move(number);
-    for (int number = firstHelper; number <= lastHelper; ++number)
+    for (int number = firstHelper; number <= lastArgument; ++number)
       move(number);
     return all;
   }();
@@ -108,7 +110,7 @@ bool KlartextFormulas::namesParameter(std::string_view variable) {
   const auto within = [&](int first, int last) { return number >= first && number <= last; };
   // A cycle would overwrite the variable.
   return (within(100, 1199) && !parametersOfCycles().contains(number)) ||
-         (within(1600, 1999) && !within(firstResult, firstResult + results - 1) && !within(firstHelper, lastHelper));
+         (within(1600, 1999) && !within(firstResult, firstResult + results - 1) && !within(firstHelper, lastArgument));
 }
 
 std::string KlartextFormulas::define(std::string_view name, Holds holds) {
@@ -133,6 +135,12 @@ std::string KlartextFormulas::define(std::string_view name, Holds holds) {
   }
   names_.emplace(name, number);
   return number;
+}
+
+std::string KlartextFormulas::argument(std::size_t place, Holds holds) {
+  if (place > lastArgument - firstArgument)
+    throw NotCarriedOver("the subprogram has more parameters than there are free Q parameters");
+  return fmt::format("{}{}", holds == Holds::Text ? "QS" : "Q", static_cast<std::size_t>(firstArgument) + place);
 }
 
 std::string KlartextFormulas::variable(const Block& block, const VariableRef& variable) {

@@ -41,8 +41,16 @@ public:
   /// The formula of what the variable has after `operand` was assigned to it: an INT rounds, a BOOL is 0 or 1.
   std::string assigned(const language::Block& block, const language::VariableRef& variable,
                        const language::Operand& operand);
+  /// The same of a parameter's value.
+  std::string assigned(const language::Block& block, const language::VariableRef& variable,
+                       const std::string& parameter);
+  /// A parameter's value as a variable of the type takes it.
+  std::string asType(language::sinumerik::Type type, const std::string& parameter);
   /// The program defines a variable, or an array, of this type: "INT".
   void declare(std::string_view name, std::string_view type);
+  void declare(std::string_view name, language::sinumerik::Type type) {
+    types_.insert_or_assign(std::string(name), type);
+  }
 
   /// A number or a parameter with its sign, as coordinates are written: "+5", "-Q3". Everything else is computed in
   /// front of the block into a parameter of the converter's own.
@@ -66,6 +74,9 @@ public:
   /// The parameter of a variable that the program defines.
   enum class Holds { Number, Text };
   std::string define(std::string_view name, Holds holds = Holds::Number);
+
+  /// The parameter in which a caller hands over an argument, 0 being the first, and gets one by reference back.
+  static std::string argument(std::size_t place, Holds holds);
 
   /// A variable that a conversion to SINUMERIK has named after the parameter it stands for: "_Q600", "_QL1".
   /// Not those that a control or a touch probe cycle fills: "_Q150" holds its value while cycles run.

@@ -13,7 +13,7 @@ using sinumerik::Type;
 
 void KlartextFormulas::declare(std::string_view name, std::string_view type) {
   Type known = Type::Real;
-  if (sinumerik::typeOf(type, known)) types_.insert_or_assign(std::string(name), known);
+  if (sinumerik::typeOf(type, known)) declare(name, known);
 }
 
 Type KlartextFormulas::typeOf(const Block& block, const VariableRef& variable) const {
@@ -55,21 +55,25 @@ bool KlartextFormulas::isTruth(const Block& block, const Operand& operand) const
   return node.operation == Operation::Variable && typeOf(block, block.variables[node.a]) == Type::Bool;
 }
 
+std::string KlartextFormulas::asType(Type type, const std::string& parameter) {
+  if (type == Type::Bool) return fmt::format("ABS (SGN {})", factorText(parameter));
+  if (type != Type::Int) return parameter;
+  // Halves go up, of negative numbers too; INT of Klartext leaves the decimals off.
+  const std::string above = helper(fmt::format("{} + 0.5", parameter));
+  return fmt::format("INT {0} + INT ((SGN (FRAC {0}) - 1) / 2)", above);
+}
+
+std::string KlartextFormulas::assigned(const Block& block, const VariableRef& variable, const std::string& parameter) {
+  return asType(typeOf(block, variable), parameter);
+}
+
 std::string KlartextFormulas::assigned(const Block& block, const VariableRef& variable, const Operand& operand) {
-  std::string text = formula(block, operand);
-  switch (typeOf(block, variable)) {
-    case Type::Bool:
-      return isTruth(block, operand) ? text : fmt::format("ABS (SGN {})", factorText(text));
-    case Type::Int: {
-      if (isWhole(block, operand)) return text;
-      if (operand.isLiteral()) return exactText(std::floor(operand.number + 0.5));
-      // Halves go up, of negative numbers too; INT of Klartext leaves the decimals off.
-      const std::string above = helper(fmt::format("{} + 0.5", text));
-      return fmt::format("INT {0} + INT ((SGN (FRAC {0}) - 1) / 2)", above);
-    }
-    default:
-      return text;
-  }
+  const Type type = typeOf(block, variable);
+  const std::string text = formula(block, operand);
+  if (type == Type::Bool && isTruth(block, operand)) return text;
+  if (type == Type::Int && isWhole(block, operand)) return text;
+  if (type == Type::Int && operand.isLiteral()) return exactText(std::floor(operand.number + 0.5));
+  return asType(type, text);
 }
 
 }  // namespace probewright::conversion

@@ -130,6 +130,8 @@ Conversion ToKlartext::run() {
   for (BlockPosition at = program_.begin(); program_.parse(at, block, ignored); at = block.next)
     write(block);
   if (!endLabel_.empty()) label(endLabel_);
+  for (const std::string& each : givenBack_)
+    out_.line(each);
   out_.insert(0, formulas_.globalValues());
   if (sectionsByNumber_) out_.insert(0, {fmt::format("{} = 0", formulas_.define("section under way"))});
   result_.text = numbered();
@@ -464,9 +466,7 @@ void ToKlartext::command(const Block& block, const Command& command) {
   if (name == "G" && trimmed(block.at(block.source), lineBlanks) == selectedAgain) return;
   if (name == "PROC") {
     const std::string_view header = block.at(command.text);
-    const std::size_t open = std::min(header.find('('), header.size()), close = header.find(')', open);
-    if (close != std::string_view::npos && !trimmed(header.substr(open + 1, close - open - 1), lineBlanks).empty())
-      throw NotCarriedOver("parameters of subprograms have no twin in Klartext", "pass values in Q parameters");
+    takeArguments();
     const std::string attributes = fmt::format("{} ", header);
     if (attributes.find(" SAVE ") != std::string::npos) {
       out_.list(block, "SAVE gives the G functions and frames of the caller back at the return, Klartext does not",

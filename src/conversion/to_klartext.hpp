@@ -146,6 +146,15 @@ private:
   void repeat(const language::Block& block, const language::RepeatSection& section);
   void call(const language::Block& block, const language::CallProgram& call);
   bool selectsUnitNext(const language::Block& block);
+
+  // to_klartext_arguments.cpp
+  /// The PROC line of a program of the job; null if it has none, or was not found.
+  const language::sinumerik::BlockParser::Header* headerOf(std::string_view name) const;
+  void callWithArguments(const language::Block& block, const language::CallProgram& call,
+                         const language::sinumerik::BlockParser::Header& header);
+  /// What the PROC line does: the parameters of this program take what the caller has handed over.
+  void takeArguments();
+
   void returnEarly();
   /// Jumps to the label if the condition holds, or if it does not.
   enum class When { Holds, Fails };
@@ -296,6 +305,7 @@ private:
   std::map<std::uint64_t, std::set<int>> wantedAfter_;  ///< by the offset of each measuring cycle
   bool changesTool_ = false;                            ///< by M6
   std::string endLabel_;                                ///< where early returns jump to; empty: there are none
+  std::vector<std::string> givenBack_;                  ///< blocks that end the program: arguments by reference
   double millimetre_ = 1;                               ///< in the unit of the program
   bool selectsMetric_ = false;                          ///< the last block that selects a unit selects millimetres
   Units units_;                                         ///< that the program selects

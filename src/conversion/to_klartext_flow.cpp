@@ -272,9 +272,10 @@ void ToKlartext::call(const Block& block, const CallProgram& call) {
   const bool hasArguments =
       std::ranges::any_of(std::span<const Word>(block.words).subspan(call.arguments.first, call.arguments.count),
                           [](const Word& word) { return word.value.present(); });
-  if (hasArguments) {
-    throw NotCarriedOver(fmt::format("{} is called with arguments, which programs in Klartext do not take", name),
-                         "pass values in Q parameters");
+  const auto* header = headerOf(name);
+  if (hasArguments && header == nullptr) {
+    throw NotCarriedOver(fmt::format("{} is called with arguments, and its PROC line was not found", name),
+                         "put it into the folder of this program, or pass values in Q parameters");
   }
   const auto units = unitsOf_.find(upperCase(name));
   const bool inch = millimetre_ != 1;
@@ -285,7 +286,10 @@ void ToKlartext::call(const Block& block, const CallProgram& call) {
               fmt::format("program {} after the call", inch ? "G700" : "G710"));
   }
   const Quantity times = call.times.present() ? quantity(block, call.times) : Quantity(1);
-  repeated(times, Rounds::Written, [&] { line(fmt::format("CALL PGM {}", name)); });
+  repeated(times, Rounds::Written, [&] {
+    if (header != nullptr) return callWithArguments(block, call, *header);
+    line(fmt::format("CALL PGM {}", name));
+  });
   out_.list(block, fmt::format("program {} is called as it stands", name), "convert it too",
             job_.programs.contains(name) ? Severity::Note : Severity::Warning);
   if (!frame_.known || std::ranges::any_of(frame_.shift, [](const Quantity& each) { return !(each == 0); }) ||

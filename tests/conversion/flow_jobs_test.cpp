@@ -291,6 +291,36 @@ TEST(ConvertJobs, NameArcsAfterAProgramThatSetsTheirCentre) {
   EXPECT_TRUE(isNamed("CC X+5 Y+5\nC X+10 Y+0 F500\n", arc));
 }
 
+/// Arguments: numbers and expressions, left out ones, types that round, and those by reference, nested and returned
+/// early.
+TEST(ConvertJobs, HandArgumentsOver) {
+  Dice dice(11);
+  const Vector3 n = World(dice).nominal();
+  const std::string touch =
+      fmt::format("G0 X=XX+{:.6f} Y=YY+{:.6f}\nG0 Z{:.6f}\nCYCLE978(0,,,1,{:.6f},5,4,3,2,1)\nG0 Z{:.6f}\n", n.x(),
+                  n.y(), n.z() + 6, n.z(), n.z() + 60);
+  const std::string main = "DEF INT COUNT=2\nDEF REAL LAST\nDEF BOOL FOUND=1\nDEF STRING[20] SAID=\"NO\"\n" +
+                           fmt::format("G17 G90 G710 G54\nT1\nM6 D1\nG0 Z{:.6f}\nR1=10\n", n.z() + 60) +
+                           "TOUCH(-40,-30,COUNT,LAST,,\"YES\")\nG0 X=COUNT*3 Y=LAST\n"
+                           "TOUCH(R1+COUNT,SIN(30)*-40,R1,R2)\nG0 X=R1 Y=R2\n"
+                           "TOUCH(,-25.5,R1,R2,1)\n"
+                           "IF FOUND\nTOUCH(-R1,-20,COUNT,R1,FOUND,SAID)\nENDIF\nG0 X=COUNT*3 Y=R1\n"
+                           "IF SAID==\"YES\"\nTOUCH(1,1,COUNT,R3,0)\nENDIF\nG0 X=R3\nM30\n";
+  const std::string sub =
+      "PROC TOUCH(REAL XX=30,REAL YY,VAR INT NN,VAR REAL LEFT,BOOL DEEP=0,STRING[20] TEXT=\"\")\n" + touch +
+      "NN=NN+1.6\nLEFT=XX*2\nIF DEEP\nRET\nENDIF\nIF TEXT==\"YES\"\nINNER(YY,NN,2.5)\nENDIF\nLEFT=LEFT+NN\nM17\n";
+  const std::string inner =
+      "PROC INNER(REAL YY,VAR INT NN,INT WHOLE)\nDEF REAL XX\nXX=WHOLE*5\n" + touch + "NN=NN+WHOLE\nRET\n";
+  expectTheSame({{"MAIN.MPF", main}, {"TOUCH.SPF", sub}, {"INNER.SPF", inner}}, "MAIN.MPF", ProgramLanguage::Klartext);
+  for (const char* lost : {"PROC SUB(REAL PLACES[3])\n", "PROC SUB(AXIS WAY)\n", "PROC SUB(VAR REAL PLACE,FRAME FF)\n",
+                           "PROC SUB(CHAR LETTER)\n"}) {
+    const JobFolder folder("probewright-job-arguments");
+    put(folder, {{"MAIN.MPF", "G17 G90 G710 G54\nSUB\nM30\n"}, {"SUB.SPF", std::string(lost) + "G0 X1\nM17\n"}});
+    EXPECT_FALSE(converted(folder, {{"SUB.SPF", std::string(lost) + "G0 X1\nM17\n"}}, ProgramLanguage::Klartext, ".H"))
+        << lost;
+  }
+}
+
 /// RET in the middle of a subprogram.
 TEST(ConvertJobs, ReturnEarly) {
   Dice dice(11);
