@@ -1,5 +1,8 @@
 #include "conversion/meanings.hpp"
 
+#include <algorithm>
+#include <array>
+
 namespace probewright::conversion {
 
 namespace {
@@ -35,55 +38,30 @@ std::optional<Meaning> actualOf(const control::Characteristic& of) {
   }
 }
 
-std::optional<Meaning> differenceOf(const control::Characteristic& of) {
-  const std::optional<Meaning> actual = actualOf(of);
-  if (!actual) return std::nullopt;
-  switch (*actual) {
-    case Meaning::Centre1:
-      return Meaning::Centre1Deviation;
-    case Meaning::Centre2:
-      return Meaning::Centre2Deviation;
-    case Meaning::Size1:
-      return Meaning::Size1Deviation;
-    case Meaning::Size2:
-      return Meaning::Size2Deviation;
-    case Meaning::Coordinate:
-      return Meaning::CoordinateDeviation;
-    case Meaning::Angle:
-      // The two angles of a plane have no differences on the other side.
-      return of.along == Along::Third ? std::optional(Meaning::AngleDeviation) : std::nullopt;
-    default:
-      return std::nullopt;
-  }
-}
-
-std::optional<Meaning> setOf(const control::Characteristic& of) {
-  const std::optional<Meaning> actual = actualOf(of);
-  if (!actual) return std::nullopt;
-  switch (*actual) {
-    case Meaning::Centre1:
-      return Meaning::Centre1Set;
-    case Meaning::Centre2:
-      return Meaning::Centre2Set;
-    case Meaning::Size1:
-      return Meaning::Size1Set;
-    case Meaning::Size2:
-      return Meaning::Size2Set;
-    case Meaning::Coordinate:
-      return Meaning::CoordinateSet;
-    default:
-      return std::nullopt;
-  }
-}
+/// What a cycle also tells of a quantity: its deviation, and the value that the call expects.
+struct Related {
+  Meaning actual, deviation;
+  std::optional<Meaning> set;
+};
+constexpr std::array related = {Related{Meaning::Centre1, Meaning::Centre1Deviation, Meaning::Centre1Set},
+                                Related{Meaning::Centre2, Meaning::Centre2Deviation, Meaning::Centre2Set},
+                                Related{Meaning::Size1, Meaning::Size1Deviation, Meaning::Size1Set},
+                                Related{Meaning::Size2, Meaning::Size2Deviation, Meaning::Size2Set},
+                                Related{Meaning::Coordinate, Meaning::CoordinateDeviation, Meaning::CoordinateSet},
+                                Related{Meaning::Angle, Meaning::AngleDeviation, std::nullopt}};
 
 }  // namespace
 
 std::optional<Meaning> meaningOf(const control::ResultKind& kind) {
   if (kind.of.system != control::System::Workpiece || kind.of.item != 0) return std::nullopt;
-  if (kind.role == Role::Actual) return actualOf(kind.of);
-  if (kind.role == Role::Difference) return differenceOf(kind.of);
-  if (kind.role == Role::Set) return setOf(kind.of);
-  return std::nullopt;
+  const std::optional<Meaning> actual = actualOf(kind.of);
+  if (kind.role == Role::Actual) return actual;
+  const auto found = std::ranges::find_if(related, [&](const Related& each) { return each.actual == actual; });
+  if (!actual || found == related.end()) return std::nullopt;
+  if (kind.role == Role::Set) return found->set;
+  // The two angles of a plane have no differences on the other side.
+  const bool ofPlane = actual == Meaning::Angle && kind.of.along != Along::Third;
+  return kind.role == Role::Difference && !ofPlane ? std::optional(found->deviation) : std::nullopt;
 }
 
 Results resultsOf(const cycles::CycleDefinition& cycle, int units) {

@@ -1,5 +1,7 @@
 #include "conversion/output.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "base/text.hpp"
@@ -15,6 +17,13 @@ void Output::list(const language::Block& block, std::string message, std::string
 
 void Output::listOnce(const language::Block& block, const std::string& message, std::string advice, Severity severity) {
   if (listedOnce_.insert(message).second) list(block, message, std::move(advice), severity);
+}
+
+void Output::leaveOut(const language::Block& block, std::string_view word, std::string_view control) {
+  listOnce(
+      block,
+      fmt::format("{} says how the path is travelled or the program shown, not where it leads: it is left out", word),
+      fmt::format("say it by the words of the {} control, if need be", control), Severity::Note);
 }
 
 void Output::lose(const language::Block& block, const std::string& what) {

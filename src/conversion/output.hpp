@@ -31,6 +31,8 @@ public:
   /// The same, where the message holds for every block of its kind: once a program.
   void listOnce(const language::Block& block, const std::string& message, std::string advice = {},
                 Severity severity = Severity::Warning);
+  /// Notes, once a word, that a word of dynamics or of the display is left out. `control`: that the program is for.
+  void leaveOut(const language::Block& block, std::string_view word, std::string_view control);
   /// Lists it and leaves it as a comment where it happened.
   void lose(const language::Block& block, const std::string& what);
   /// The block stays as a comment.

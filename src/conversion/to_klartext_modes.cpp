@@ -56,11 +56,7 @@ bool ToKlartext::leavesOut(const Block& block, std::string_view name) {
                name)) {
     return false;
   }
-  out_.listOnce(block,
-                fmt::format("{} says how the path is travelled or the program shown, not where it leads: it is left "
-                            "out",
-                            name),
-                "say it by the words of the HEIDENHAIN control, if need be", Severity::Note);
+  out_.leaveOut(block, name, "HEIDENHAIN");
   return true;
 }
 

@@ -416,11 +416,7 @@ bool ToSinumerik::leavesOut(const Block& block, const Command& command) {
     name += fmt::format(" {}", word);
   }
   if (!leaves) return false;
-  out_.listOnce(block,
-                fmt::format("{} says how the path is travelled or the program shown, not where it leads: it is left "
-                            "out",
-                            name),
-                "say it by the words of the SINUMERIK control, if need be", Severity::Note);
+  out_.leaveOut(block, name, "SINUMERIK");
   return true;
 }
 
