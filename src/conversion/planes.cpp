@@ -77,7 +77,15 @@ void ToSinumerik::plane(const Block& block, const Transform& transform) {
     out_.line(fmt::format("CYCLE800({},\"\",0,{},0,0,0,0,0,0,0,0,0,1{})", first, modeRotaryAxes,
                           first == "0" ? std::string() : distance));
   };
+  // Other planes need rotary axes on a HEIDENHAIN control, too.
+  const auto needsRotaryAxis = [&] {
+    out_.listOnce(block,
+                  "a SINUMERIK without rotary axes refuses CYCLE800 (62181), a HEIDENHAIN control takes PLANE where it "
+                  "turns nothing but coordinates",
+                  "on a machine without rotary axes write ROT for it", Severity::Note);
+  };
   if (resets) {
+    if (turns) needsRotaryAxis();
     // Where the plane is level the table may stand anywhere; PLANE RESET turns it home.
     if (turns) turnHome(retraction);
     return out_.line("CYCLE800()");
@@ -90,6 +98,7 @@ void ToSinumerik::plane(const Block& block, const Transform& transform) {
   const Quantity a = angle("SPA"), b = angle("SPB"), c = angle("SPC");
   const bool isTilted = (a.isNumber() && !(a == 0)) || (b.isNumber() && !(b == 0));
   const bool isLevel = a == 0 && b == 0;
+  if (isLevel) needsRotaryAxis();
   if (!isTilted && turns && find("TABL") != nullptr) {
     out_.lose(block, "TABLE ROT: CYCLE800 turns the coordinates only where the plane is level");
   }

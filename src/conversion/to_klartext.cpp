@@ -351,14 +351,17 @@ void ToKlartext::modal(const Block& block, const Modal& modal) {
     compensationDoubtful_ = false;
     compensation_ = name == "G40" ? "R0" : name == "G41" ? "RL" : "RR";
   } else if (name == "G95") {
+    feedOfOtherKind_ = feedOfOtherKind_ || !std::exchange(perRevolution_, true);
     line("M136");
   } else if (name == "G94") {
+    feedOfOtherKind_ = feedOfOtherKind_ || std::exchange(perRevolution_, false);
     if (feedsPerRevolution_) line("M137");
   } else if (name == "TRAORI") {
     line("M128");
   } else if (name == "TRAFOOF") {
     line("M129");
   } else if (name == "F" && words.size() == 1) {
+    feedOfOtherKind_ = false;
     line(fmt::format("L {}{}", compensation_, feedWord(block, words[0].value)));
   } else if (name == "S" && words.size() == 1 && addressName(words[0].address) == "S") {
     line(fmt::format("TOOL CALL S{}", formulas_.unsignedValue(quantity(block, words[0].value))));

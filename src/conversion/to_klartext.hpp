@@ -202,6 +202,8 @@ private:
   };
   /// Lists a block that a contour with radius compensation does not go on through as on a HEIDENHAIN control.
   void listCompensation(const language::Block& block);
+  /// Lists, after G94 and G95, a path whose feed was programmed before them.
+  void listFeedOfOtherKind(const language::Block& block, const language::Move& move);
   /// Lists a path in which radius compensation begins, ends or goes on in another way than on a HEIDENHAIN control.
   void listCompensatedPath(const language::Block& block, std::span<const language::Word> words);
   /// The next path, unless a label, a jump or a call comes before it in the text of the program.
@@ -340,6 +342,8 @@ private:
   std::string compensation_ = "R0";
   std::string travelled_ = "R0";   ///< radius compensation of the last path
   bool travelledAtRapid_ = false;  ///< the last path was at rapid traverse
+  bool perRevolution_ = false;     ///< G95 is in effect
+  bool feedOfOtherKind_ = false;   ///< G94 or G95 came after the last F
   CornerRoom room_;
   std::string pendingTool_, tool_;  ///< to be changed to, in the spindle
   bool measuredWithTool_ = false;   ///< a cycle has measured with the tool in the spindle

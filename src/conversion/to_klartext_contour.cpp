@@ -76,6 +76,17 @@ void ToKlartext::listCompensation(const Block& block) {
       "end it with G40 in a path before this block");
 }
 
+void ToKlartext::listFeedOfOtherKind(const Block& block, const Move& move) {
+  const bool given = move.feed.present() || std::ranges::any_of(block.instructions, [&](const Instruction& each) {
+                       const auto* modal = std::get_if<Modal>(&each);
+                       return modal != nullptr && block.at(modal->name) == "F";
+                     });
+  if (given) feedOfOtherKind_ = false;
+  if (motion_ == MoveKind::Rapid || !std::exchange(feedOfOtherKind_, false)) return;
+  out_.list(block, "after G94 and G95 a SINUMERIK stops where no new feed (F) follows, a HEIDENHAIN control goes on",
+            "program F in this block");
+}
+
 void ToKlartext::listCompensatedPath(const Block& block, std::span<const Word> words) {
   const std::string before = std::exchange(travelled_, compensation_);
   const bool rapid = motion_ == MoveKind::Rapid, changes = std::exchange(travelledAtRapid_, rapid) != rapid;

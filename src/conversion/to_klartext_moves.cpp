@@ -116,6 +116,7 @@ void ToKlartext::move(const Block& block, const Move& move) {
     out_.list(block, "with D0 heights count without the length of the tool, on a HEIDENHAIN control always with it",
               "program D1 before this block");
   }
+  if (!words.empty()) listFeedOfOtherKind(block, move);
   if (!words.empty() && !onMachine) listCompensatedPath(block, words);
   const bool path = motion_ != MoveKind::Rapid && motion_ != MoveKind::Linear;
   for (std::size_t i = 0; i < 2; ++i) {

@@ -205,6 +205,20 @@ TEST(ConvertFeeds, NamePathsWithoutANewFeedAfterM136) {
     EXPECT_TRUE(lists(toSinumerik(fromKlartext(turns + blocks)), "needs a new feed")) << blocks;
 }
 
+TEST(ConvertFeeds, NamePathsWithoutANewFeedAfterG95) {
+  const PlantedPart part = plainTable();
+  for (const char* blocks : {"S100 M3\nG95\nG1 X20\n", "S100 M3\nG95 G1 X5 F0.2\nG94\nX20\n",
+                             "S100 M3\nG95 F0.2\nG0 X5\nG1 X20\nG94\nG3 X40 Y0 CR=10\n"}) {
+    const Twin original = runSinumerik(fromSinumerik(blocks), part);
+    EXPECT_FALSE(original.finished) << blocks;
+    EXPECT_TRUE(lists(toKlartext(original.text), "no new feed")) << blocks;
+  }
+  for (const char* blocks :
+       {"S100 M3\nG95 G1 X5 F0.2\nX20\nG94 F500\nX5\n", "S100 M3\nF0.5 G95 G1 X5\nG94 G0 X7\nG1 X20 F300\n",
+        "S100 M3\nG95\nG94\nG95\nF0.3\nG1 X9\n"})
+    EXPECT_TRUE(goesTheSameWayBack(blocks)) << blocks;
+}
+
 /// As many digits as the program has: what is cut off changes whole numbers and comparisons.
 TEST(ConvertFormulas, KeepAllDigits) {
   EXPECT_TRUE(goesTheSameWayBack("R1=TRUNC(2.9999999999999)\nG0 X=R1*10\n"));
@@ -248,6 +262,24 @@ TEST(ConvertPlanes, NameASecondSwivelDataSet) {
   const std::string one = swivel("TABLE") + "CYCLE800()\n" + swivel("table") + swivel("") + swivel("0");
   EXPECT_FALSE(lists(toKlartext(fromSinumerik(one)), "_TC"));
   EXPECT_TRUE(lists(toKlartext(fromSinumerik(one + swivel("HEAD"))), "more than one data set (TABLE, HEAD)"));
+}
+
+/// On a machine without rotary axes a HEIDENHAIN control takes PLANE where it turns nothing but coordinates.
+TEST(ConvertPlanes, TellThatASinumerikNeedsARotaryAxis) {
+  PlantedPart part{Bench(ControlKind::TNC640, "mill3")};
+  part.bench.preset(1, {10, 20, -400});
+  const auto told = [](const conversion::Conversion& there) {
+    return std::ranges::any_of(there.notCarriedOver, [](const Diagnostic& each) {
+      return each.severity == Severity::Note && each.message.find("62181") != std::string::npos;
+    });
+  };
+  for (const char* blocks : {"PLANE SPATIAL SPA+0 SPB+0 SPC+0 TURN FMAX\n", "PLANE SPATIAL SPA+0 SPB+0 SPC+20 STAY\n",
+                             "PLANE RESET TURN FMAX\n", "PLANE RESET STAY\n"}) {
+    const Twin original = runKlartext(fromKlartext(blocks), part);
+    EXPECT_TRUE(original.finished) << original.why;
+    const conversion::Conversion there = toSinumerik(original.text);
+    EXPECT_EQ(told(there), !run(there.text, ProgramLanguage::Sinumerik, part).finished) << there.text;
+  }
 }
 
 /// What is told in millimetres of a call in G710, though the program selects inches too: S_FA = 8 looks along 16 mm.
