@@ -9,6 +9,7 @@ namespace probewright::truth::testing {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 const std::string probe = "TOOL CALL 1 Z\nL Z+50 R0 FMAX\n";
 
@@ -120,6 +121,124 @@ TEST(TouchErrors, CountOutwards) {
   ASSERT_TRUE(told.finished()) << told.why();
   ASSERT_EQ(told.truth().cycles.back().touches.size(), 1U);
   EXPECT_NEAR(told.truth().cycles.back().touches.front()->error, -0.005, 1e-6);
+}
+
+/// The box lies 20 mm further out than expected: the probe comes down on it. The corner is felt from beside it, from
+/// outside, and what stands behind the box does not count.
+TEST(Outlines, OfACornerInTheMaterialAreFeltFromOutside) {
+  World world;
+  world.origin = {0, 0, -480};
+  world.part = boxWith("", "{ x = 10, y = 10, z = -480 }");
+  world.more =
+      "[[fixture]]\nname = \"block\"\npose = { x = 120, y = 110, z = -500 }\n[[fixture.feature]]\nshape = \"box\"\n"
+      "size = [20, 20, 20]\n";
+  const Told told = run(world, probe +
+                                   "TCH PROBE 414 PRESET OUTSIDE CORNER ~\nQ263=-20 ~\nQ264=-40 ~\nQ326=+30 ~\n"
+                                   "Q296=-50 ~\nQ297=-10 ~\nQ327=+40 ~\nQ261=-8 ~\nQ320=+0 ~\nQ260=+20 ~\nQ301=+1 ~\n"
+                                   "Q304=+0 ~\nQ305=+1 ~\nQ331=+0 ~\nQ332=+0 ~\nQ303=+1 ~\nQ381=+0 ~\nQ382=+0 ~\n"
+                                   "Q383=+0 ~\nQ384=+0 ~\nQ333=+0\n");
+  ASSERT_FALSE(told.finished());
+  EXPECT_THAT(textsOf(told), HasSubstr("the corner is at X-70.000 Y-60.000 Z-8.000"));
+  EXPECT_THAT(textsOf(told), Not(HasSubstr("is turned by")));
+}
+
+/// Corners of a plate and of a pocket, by their numbers: the pole lies outside of the plate or within the pocket, and
+/// S_FA is too short for the way to the faces.
+TEST(Outlines, OfACornerOnASinumerikGoWithItsNumber) {
+  World world;
+  world.control = "840Dsl";
+  world.origin = {0, 0, -480};
+  const auto texts = [&](const std::string& call, double x, double y) {
+    const Told told = run(world, fmt::format("T1 D1\nM6\nG54 G17 G0 X{} Y{} Z20\nG1 Z-8 F2000\n{}\n", x, y, call));
+    EXPECT_FALSE(told.finished()) << call;
+    return textsOf(told);
+  };
+  world.part = plate("{ z = -480 }");
+  for (const auto& [number, x, y] : {std::tuple(1, -1, -1), {2, 1, -1}, {3, 1, 1}, {4, -1, 1}}) {
+    const std::string text =
+        texts(fmt::format("CYCLE961({}0006,,1,30,60,25,,{},{},,,,,0,,0,3,20,1,,1,)", number, x * 60, y * 50), x * 60.0,
+              y * 50.0);
+    EXPECT_THAT(text, HasSubstr(fmt::format("the corner is at X{:+.3f} Y{:+.3f} Z-5.000", x * 40.0, y * 30.0)))
+        << number;
+    EXPECT_THAT(text, Not(HasSubstr("is turned by"))) << number;
+  }
+  // Points by coordinates: two at the side towards -Y, one at that towards -X.
+  EXPECT_THAT(texts("CYCLE961(16,,1,-20,-50,20,-50,-60,10,,,,,0,,0,3,20,1,,1,)", -60, -50),
+              HasSubstr("the corner is at X-40.000 Y-30.000 Z-5.000"));
+  world.part =
+      boxWith("[[part.feature]]\nshape = \"pocket\"\nsize = [90, 80]\ndepth = 20\ncorner_radius = 2\n", "{ z = -480 }");
+  EXPECT_THAT(texts("CYCLE961(5,,1,20,40,20,,-25,-20,,,,,0,,0,3,20,1,,1,)", -25, -20),
+              HasSubstr("the corner is at X-45.000 Y-40.000 Z-5.000"));
+}
+
+/// Where one of the walls is missing, or the walls are three times as far apart, nothing of that size is there.
+TEST(Outlines, OfASlotAreNotTakenFromSomethingElse) {
+  World world;
+  world.origin = {0, 0, -480};
+  const std::string slot =
+      "TCH PROBE 408 SLOT ~\nQ321=+0 ~\nQ322=+0 ~\nQ311=+14 ~\nQ272=+2 ~\nQ261=-8 ~\nQ320=+0 ~\nQ260=+40 ~\n"
+      "Q301=+0 ~\nQ305=+0 ~\nQ405=+0 ~\nQ303=+1 ~\nQ381=+0 ~\nQ382=+0 ~\nQ383=+0 ~\nQ384=+0 ~\nQ333=+0\n";
+  for (const double side : {1.0, -1.0}) {
+    world.part = fmt::format(
+        "[part]\npose = {{ z = -480 }}\n[[part.feature]]\nshape = \"box\"\ncentre = [0, {}, -20]\nsize = [60, 20, "
+        "20]\n",
+        side * 17);
+    const Told step = run(world, probe + slot);
+    ASSERT_FALSE(step.finished());
+    EXPECT_THAT(textsOf(step), Not(HasSubstr("the slot of"))) << side;
+  }
+  world.part = boxWith("[[part.feature]]\nshape = \"pocket\"\nsize = [100, 45]\ndepth = 20\ncorner_radius = 2\n",
+                       "{ z = -480 }");
+  const Told wide = run(world, probe + slot);
+  ASSERT_FALSE(wide.finished());
+  EXPECT_THAT(textsOf(wide), Not(HasSubstr("the slot of")));
+}
+
+/// Missed by the same way: a flat face square to it and a round one beside its middle are not turned.
+TEST(Outlines, OfAFaceThatIsNotTurnedTellNoAngle) {
+  World world;
+  world.origin = {0, 0, -480};
+  const std::string front =
+      "TCH PROBE 427 COORDINATE ~\nQ263=+10 ~\nQ264=-45 ~\nQ261=-8 ~\nQ320=+2 ~\nQ272=+2 ~\nQ267=+1 ~\nQ260=+20 ~\n"
+      "Q281=+0 ~\nQ288=+99 ~\nQ289=-99 ~\nQ309=+0 ~\nQ330=+0\n";
+  for (const std::string& part :
+       {plate("{ z = -480 }"),
+        std::string(
+            "[part]\npose = { z = -500 }\n[[part.feature]]\nshape = \"cylinder\"\ndiameter = 60\nheight = 20\n")}) {
+    world.part = part;
+    const Told told = run(world, probe + front);
+    ASSERT_FALSE(told.finished());
+    EXPECT_THAT(textsOf(told), HasSubstr(" mm further in +Y"));
+    EXPECT_THAT(textsOf(told), Not(HasSubstr("that face")));
+  }
+}
+
+/// A beam hangs in the way of body and stylus, above the ball; a roof hangs in the way of the body alone, so near to
+/// the axis that no body passes it.
+TEST(Outlines, OfABodyTellWhatHelps) {
+  World world;
+  world.origin = {0, 0, -480};
+  world.part = plate("{ z = -480 }");
+  world.probe = "stylus_length = 50\nbody_radius = 30\nbody_length = 90\n";
+  const auto fixture = [](double x, double z, double height) {
+    return fmt::format(
+        "[[fixture]]\nname = \"fixture\"\npose = {{ x = {}, z = {} }}\n[[fixture.feature]]\nshape = \"box\"\n"
+        "size = [40, 40, {}]\n",
+        x, z, height);
+  };
+  const std::string way = "L X-160 Y+0 FMAX\nL Z+5 FMAX\nL X+30 F2000\n";
+  world.more = fixture(50, -460, 80);
+  const Told beam = run(world, probe + way);
+  ASSERT_FALSE(beam.finished());
+  EXPECT_THAT(textsOf(beam), HasSubstr("the body met \"fixture\""));
+  EXPECT_THAT(textsOf(beam), Not(HasSubstr("too wide")));
+  EXPECT_THAT(textsOf(beam), Not(HasSubstr("a stylus that is")));
+  // The roof begins at X31, 60 mm above the plate, and ends 95 mm above it: the stylus passes below.
+  world.more = fixture(51, -420, 35);
+  const Told roof = run(world, probe + way);
+  ASSERT_FALSE(roof.finished());
+  EXPECT_THAT(textsOf(roof), HasSubstr("the body met \"fixture\""));
+  EXPECT_THAT(textsOf(roof), Not(HasSubstr("too wide")));
 }
 
 }  // namespace

@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <optional>
 #include <string>
 
@@ -86,5 +90,41 @@ inline std::string plate(const std::string& pose) {
          "\n[[part.feature]]\nshape = \"box\"\ncentre = [0, 0, -20]\nsize = [80, 60, 20]\n"
          "[[part.feature]]\nshape = \"hole\"\ndiameter = 30.01\n";
 }
+
+/// What is told of an entry of a table, by its name.
+inline const records::EntryTruth& entry(const Told& told, const std::string& name) {
+  static const records::EntryTruth none;
+  const auto& entries = told.truth().entries;
+  const auto found = std::ranges::find(entries, name, &records::EntryTruth::name);
+  EXPECT_NE(found, entries.end()) << "no entry " << name;
+  return found == entries.end() ? none : *found;
+}
+
+/// One of its values.
+inline const records::EntryValue& value(const records::EntryTruth& entry, const std::string& name) {
+  static const records::EntryValue none;
+  const auto found = std::ranges::find(entry.values, name, &records::EntryValue::name);
+  EXPECT_NE(found, entry.values.end()) << "no value " << name;
+  return found == entry.values.end() ? none : *found;
+}
+
+/// A folder with a setup and the tables of its control, which goes with the test.
+class TableFolder {
+public:
+  TableFolder() : path_(std::filesystem::temp_directory_path() / ("truth-test-" + std::to_string(getpid()))) {
+    std::filesystem::create_directories(path_);
+  }
+  ~TableFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TableFolder(const TableFolder&) = delete;
+  TableFolder& operator=(const TableFolder&) = delete;
+  void put(const std::string& name, const std::string& text) const { std::ofstream(path_ / name) << text; }
+  const std::filesystem::path& path() const { return path_; }
+
+private:
+  std::filesystem::path path_;
+};
 
 }  // namespace probewright::truth::testing
