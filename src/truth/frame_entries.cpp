@@ -94,8 +94,9 @@ CycleErrors errorsOf(const control::CycleRecord& record, const TouchedCycle& tou
     if (!truth.results[i]) continue;
     auto place = placeOf(of.along, touched.plane);
     if (position && !place && !touched.points.empty()) {
+      // The first touch measures it; one in the tool axis may follow.
       Eigen::Index along = 0;
-      touched.points.back().direction.cwiseAbs().maxCoeff(&along);
+      touched.points.front().direction.cwiseAbs().maxCoeff(&along);
       place = static_cast<int>(along);
     }
     if (!place) continue;
@@ -111,8 +112,7 @@ CycleErrors errorsOf(const control::CycleRecord& record, const TouchedCycle& tou
   // Numbers that no result shows: by the one flat face that was touched in their direction.
   for (std::size_t i = 0; i < 3; ++i) {
     const auto axis = static_cast<Eigen::Index>(i);
-    if (errors.position[i] && !(planeMeasured && i == 2)) continue;
-    if (planeMeasured && i != 2) continue;
+    if (errors.position[i] || (planeMeasured && i != 2)) continue;
     if (const TouchedPoint* point = onlyFaceAlong(touched, axis)) {
       if (const auto beyond = distanceToFace(*point, point->surface, Vector3::Unit(axis)))
         errors.position[i] = -*beyond;

@@ -8,8 +8,6 @@
 namespace probewright::truth::testing {
 namespace {
 
-using ::testing::IsEmpty;
-
 setup::MachineOptions asking() {
   setup::MachineOptions options;
   options.clearance = true;
@@ -55,7 +53,12 @@ TEST(ClearanceOfTools, IsThatOfTheirLowestPoint) {
 /// are told as its own to the last, and a tool change is not watched.
 TEST(ClearanceSpans, AreOneWhereNothingIsNear) {
   World world = worldWith(plate("{ z = -480 }"));
-  EXPECT_THAT(run(world, "TOOL CALL 1 Z\n", asking()).truth().clearance->spans, IsEmpty());
+  world.more = "[[tool]]\nnumber = 2\nname = \"MILL\"\nkind = \"mill\"\nlength = 100\nradius = 8\n";
+  // Down beside the plate, from where the tool is changed.
+  const Told changed = run(world, "TOOL CALL 1 Z\nL X-50 R0 FMAX\nL Z-8 FMAX\nTOOL CALL 2 Z\n", asking());
+  ASSERT_TRUE(changed.finished()) << changed.why();
+  ASSERT_EQ(changed.truth().clearance->spans.size(), 2U);
+  EXPECT_NEAR(changed.truth().clearance->spans.back().distance, 7, 0.06);
   const Told far = run(world, "TOOL CALL 1 Z\nL Z+60 R0 FMAX\nL X-80 FMAX\nL Y+20 FMAX\nL X+0 FMAX\n", asking());
   ASSERT_TRUE(far.finished()) << far.why();
   ASSERT_EQ(far.truth().clearance->spans.size(), 1U);
@@ -120,9 +123,15 @@ TEST(ClearanceOnLathes, IsThatOfThePart) {
 /// A tool change goes to an end of the travel on purpose.
 TEST(Travel, DoesNotCountToolChanges) {
   World world = worldWith(plate("{ z = -480 }"));
-  world.more = "[machine]\nclearance = 1000\n";
-  EXPECT_THAT(run(world, "TOOL CALL 1 Z\n").truth().nearEnds, IsEmpty());
-  EXPECT_FALSE(run(world, "TOOL CALL 1 Z\nL Z+60 R0 FMAX\n").truth().nearEnds.empty());
+  world.more =
+      "[machine]\nclearance = 1000\n[[tool]]\nnumber = 2\nname = \"MILL\"\nkind = \"mill\"\nlength = 100\nradius = 8\n";
+  session::RunOptions traced;
+  traced.trace = true;
+  const Told told = run(world, "TOOL CALL 1 Z\nL X+100 R0 FMAX\nTOOL CALL 2 Z\n", {}, traced);
+  ASSERT_TRUE(told.finished()) << told.why();
+  ASSERT_EQ(told.truth().nearEnds.size(), 1U);
+  EXPECT_EQ(told.truth().nearEnds.front().axis, "X");
+  EXPECT_EQ(told.truth().nearEnds.front().place->line, 3U);
 }
 
 }  // namespace

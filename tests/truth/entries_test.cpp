@@ -273,7 +273,8 @@ TEST(Entries, OfACompensationGridAreItsPositions) {
     }
     return std::string(table.table().bytes());
   }());
-  const auto measured = [&](double repeatability) {
+  const std::string stand = "[sphere]\ndiameter = 25\nstem_diameter = 8\npose = { x = 150, y = 60, z = -420 }\n";
+  const auto measured = [&](double repeatability, const std::string& sphere, int mode = 1) {
     folder.put("mill.toml", fmt::format(R"(seed = 453
 [machine]
 name = "mill5-head-table"
@@ -284,10 +285,12 @@ tables = "."
 row = 1
 origin = [150, 60, -420]
 active = true
-[sphere]
-diameter = 25
-stem_diameter = 8
-pose = {{ x = 150, y = 60, z = -420 }}
+{}
+[[tool]]
+number = 2
+kind = "mill"
+length = 80
+radius = 5
 [[tool]]
 number = 1
 kind = "probe"
@@ -304,18 +307,22 @@ amplitude = 0.003
 wavelength = 90
 phase = 50
 )",
-                                        repeatability));
+                                        sphere, repeatability));
     Diagnostics diagnostics;
     const auto setup = setup::readSetup((folder.path() / "mill.toml").string(), diagnostics);
     EXPECT_TRUE(setup) << format(diagnostics.front());
-    return Told{setup::runText("T.H",
-                               "BEGIN PGM T MM\nTOOL CALL 1 Z\nL Z+80 R0 FMAX\nTCH PROBE 453 KINEMATICS GRID "
-                               "~\nQ406=+1 ~\nQ407=+12.5 ~\n"
-                               "Q320=+0 ~\nQ408=+0 ~\nQ253=+5000 ~\nQ380=+45 ~\nQ423=+4 ~\nQ431=+0\nEND PGM T MM\n",
-                               *setup, session::RunOptions())
-                    .outcome};
+    // Another tool comes into the spindle afterwards.
+    return Told{
+        setup::runText("T.H",
+                       fmt::format("BEGIN PGM T MM\nTOOL CALL 1 Z\nL Z+80 R0 FMAX\nTCH PROBE 453 KINEMATICS GRID "
+                                   "~\nQ406=+{} ~\nQ407=+12.5 ~\nQ320=+0 ~\nQ408=+0 ~\nQ253=+5000 ~\nQ380=+45 ~\n"
+                                   "Q423=+4 ~\nQ431=+0\nL Z+100 R0 FMAX\nTOOL CALL 2 Z\nL Z+100 R0 FMAX\n"
+                                   "END PGM T MM\n",
+                                   mode),
+                       *setup, session::RunOptions())
+            .outcome};
   };
-  const Told exact = measured(0);
+  const Told exact = measured(0, stand);
   ASSERT_TRUE(exact.finished()) << exact.why();
   const records::EntryTruth& grid = entry(exact, "MACHINE.KCO");
   EXPECT_EQ(grid.kind, records::EntryKind::Kinematics);
@@ -323,7 +330,13 @@ phase = 50
   EXPECT_LT(*grid.distance, 2e-5);
   // 0.004 degrees at 160 mm from the axis are 0.011 mm.
   EXPECT_GT(std::ranges::max(grid.values, {}, &records::EntryValue::value).value, 0.005);
-  const Told rough = measured(0.003);
+  // A sphere of the part serves as well; nothing is told where nothing was written.
+  const Told part = measured(
+      0, "[part]\npose = { x = 150, y = 60, z = -420 }\n[[part.feature]]\nshape = \"sphere\"\ndiameter = 25\n");
+  ASSERT_TRUE(part.finished()) << part.why();
+  EXPECT_LT(*entry(part, "MACHINE.KCO").distance, 2e-5);
+  EXPECT_TRUE(measured(0, stand, 0).truth().entries.empty());
+  const Told rough = measured(0.003, stand);
   ASSERT_TRUE(rough.finished()) << rough.why();
   EXPECT_GT(*entry(rough, "MACHINE.KCO").distance, 0.0015);
   EXPECT_LT(*entry(rough, "MACHINE.KCO").distance, 0.02);
@@ -341,6 +354,13 @@ phase = 50
     if (row == 0) first = off.norm();
     sum += rotation(-Vector3::UnitZ(), c[row % c.size()]).inverse() * off;
   }
+  // What is told as true is nearer to what a perfect probe measures than what was measured.
+  double told = 0, seen = 0;
+  for (std::size_t i = 0; i < left.values.size(); ++i) {
+    told += std::pow(left.values[i].truth - grid.values[i].value, 2);
+    seen += std::pow(left.values[i].value - grid.values[i].value, 2);
+  }
+  EXPECT_LT(told, 0.5 * seen);
   EXPECT_GT(first, 1e-4);
   EXPECT_LT(sum.norm(), 0.01 * first) << sum.transpose();
 }

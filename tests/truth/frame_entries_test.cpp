@@ -44,6 +44,32 @@ TEST(FrameEntries, OfAnEdgeAtTwoPointsAreThoseOfItsFace) {
   EXPECT_EQ(preset.values.size(), 1U);
 }
 
+/// Two points of a round face do not tell where an edge is.
+TEST(FrameEntries, OfAnEdgeThatIsNoneAreNotTold) {
+  const Told told = run(
+      worldWith("[part]\npose = { z = -500 }\n[[part.feature]]\nshape = \"cylinder\"\ndiameter = 200\nheight = 20\n"),
+      probe +
+          "TCH PROBE 1410 EDGE ~\nQ1100=-20 ~\nQ1101=-98 ~\nQ1102=-8 ~\nQ1103=+20 ~\nQ1104=-98 ~\nQ1105=-8 ~\n"
+          "Q372=+2 ~\nQ320=+2 ~\nQ260=+20 ~\nQ1125=+1 ~\nQ309=+0 ~\nQ1126=+0 ~\nQ1120=+3 ~\nQ1121=+0\n");
+  ASSERT_TRUE(told.finished()) << told.why();
+  EXPECT_THAT(told.truth().entries, IsEmpty());
+}
+
+/// A sphere, the only one of several that CYCLE997 could measure.
+TEST(FrameEntries, OfASphereAreItsCentre) {
+  World world = worldWith(
+      "[part]\npose = { z = -500 }\n[[part.feature]]\nshape = \"sphere\"\ndiameter = 25.02\ncentre = [0.3, -0.2, 40]\n",
+      "840Dsl");
+  world.probe = "believed_tip_offset = [0.03, 0]\n";
+  const Told told = run(world, "T1 D1\nM6\nG54 G17 G0 X0 Y0 Z37.5\nCYCLE997(109,10001,1,25,5,4,,,0,0,20)\n");
+  ASSERT_TRUE(told.finished()) << told.why();
+  const records::EntryTruth& offset = entry(told, "G54");
+  EXPECT_NEAR(value(offset, "X").truth, 0.3, 1e-5);
+  EXPECT_NEAR(value(offset, "Y").truth, -0.2, 1e-5);
+  EXPECT_NEAR(value(offset, "Z").truth, -480, 1e-5);
+  EXPECT_NEAR(value(offset, "X").value, 0.33, 1e-3);
+}
+
 /// A plane that is measured with scatter: each of its angles has an error of its own, its height another one.
 TEST(FrameEntries, OfAPlaneAreItsAnglesAndItsHeight) {
   for (const int tilt : {0, 1}) {
@@ -91,6 +117,25 @@ TEST(FrameEntries, OfAHoleAndTheFaceBesideItAreThoseOfBoth) {
     EXPECT_NEAR(value(each, "Z").value, -479.72, cell);
     EXPECT_EQ(each.cycle, static_cast<std::size_t>(row - 2));
   }
+}
+
+/// The same of a slot, whose middle is a coordinate in the direction of probing.
+TEST(FrameEntries, OfASlotAndTheFaceBesideItAreThoseOfBoth) {
+  World world = worldWith(
+      "[part]\npose = { y = 0.4, z = -479.7 }\n[[part.feature]]\nshape = \"box\"\ncentre = [0, 0, -40]\nsize = [160, "
+      "140, "
+      "40]\n[[part.feature]]\nshape = \"pocket\"\nsize = [100, 14.02]\ndepth = 20\ncorner_radius = 2\n");
+  world.probe = "believed_length = 150.02\nbelieved_tip_offset = [0.03, 0.01]\n";
+  const Told told = run(
+      world, probe +
+                 "TCH PROBE 408 SLOT ~\nQ321=+0 ~\nQ322=+0 ~\nQ311=+14 ~\nQ272=+2 ~\nQ261=-8 ~\nQ320=+0 ~\nQ260=+40 ~\n"
+                 "Q301=+0 ~\nQ305=+1 ~\nQ405=+0 ~\nQ303=+1 ~\nQ381=+1 ~\nQ382=+30 ~\nQ383=+40 ~\nQ384=+0 ~\nQ333=+0\n");
+  ASSERT_TRUE(told.finished()) << told.why();
+  const records::EntryTruth& preset = entry(told, "preset 1");
+  EXPECT_NEAR(value(preset, "Y").truth, 0.4, cell);
+  EXPECT_NEAR(value(preset, "Y").value, 0.41, cell);
+  EXPECT_NEAR(value(preset, "Z").truth, -479.7, cell);
+  EXPECT_NEAR(value(preset, "Z").value, -479.72, cell);
 }
 
 /// The offset of C by which the edge lies along X, whatever it was before. Axes that are not square show an edge along
@@ -190,6 +235,42 @@ TEST(ToolEntries, OfToolNineAreItsOwn) {
   ASSERT_TRUE(told.finished()) << told.why();
   EXPECT_NEAR(value(entry(told, "tool 19"), "length 1").truth, 92.419, 1e-9);
   EXPECT_FALSE(has(told, "tool 1"));
+}
+
+/// The response of a probe that was there before is told where a calibration wrote it anew.
+TEST(CalibrationEntries, AreToldWhereTheTableChanged) {
+  World world = worldWith(
+      "[part]\nname = \"none\"\n[[part.feature]]\nshape = \"box\"\ncentre = [200, 0, -500]\nsize = [20, 20, 20]\n");
+  world.probe = "pretravel = 0.012\nlobing = 0.006\naxial_pretravel = 0.004\ntip_offset = [0.3, -0.2]\n";
+  world.more = "[sphere]\ndiameter = 25\npose = { z = -480 }\nstem_diameter = 8\n";
+  const auto program = [](int points) {
+    return fmt::format(
+        "BEGIN PGM T MM\nTOOL CALL 1 Z\nL Z+80 R0 FMAX\nL X+0 Y+0 R0 FMAX\nL Z+17 R0 FMAX\nTCH PROBE 460 CALIBRATE ~\n"
+        "Q407=+12.5 ~\nQ320=+1 ~\nQ301=+1 ~\nQ423=+7 ~\nQ380=+0 ~\nQ433=+1 ~\nQ434=+0 ~\nQ455=+{}\nEND PGM T MM\n",
+        points);
+  };
+  const TableFolder folder;
+  const auto calibrated = [&](int points) {
+    folder.put("mill.toml", world.text());
+    Diagnostics diagnostics;
+    const auto setup = setup::readSetup((folder.path() / "mill.toml").string(), diagnostics);
+    EXPECT_TRUE(setup) << format(diagnostics.front());
+    return Told{setup::runText("T.H", program(points), *setup, session::RunOptions()).outcome};
+  };
+  const Told first = calibrated(5);
+  ASSERT_TRUE(first.finished()) << first.why();
+  // A touch beside the nominal point, and the last decimals of the tables.
+  EXPECT_LT(*entry(first, "T1.3DTC").distance, 3e-5);
+  for (const char* name : {"TOOL.T", "TCHPROBE.TP", "T1.3DTC"})
+    folder.put(name, first.outcome.files.at(name));
+  world.part = "tables = \".\"\n" + world.part;
+  const Told without = calibrated(0);
+  ASSERT_TRUE(without.finished()) << without.why();
+  EXPECT_FALSE(has(without, "T1.3DTC"));
+  const Told again = calibrated(7);
+  ASSERT_TRUE(again.finished()) << again.why();
+  EXPECT_GT(entry(again, "T1.3DTC").values.size(), entry(first, "T1.3DTC").values.size());
+  EXPECT_LT(*entry(again, "T1.3DTC").distance, 3e-5);
 }
 
 }  // namespace

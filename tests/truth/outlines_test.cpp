@@ -8,6 +8,7 @@
 namespace probewright::truth::testing {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -164,7 +165,20 @@ TEST(Outlines, OfACornerOnASinumerikGoWithItsNumber) {
   }
   // Points by coordinates: two at the side towards -Y, one at that towards -X.
   EXPECT_THAT(texts("CYCLE961(16,,1,-20,-50,20,-50,-60,10,,,,,0,,0,3,20,1,,1,)", -60, -50),
-              HasSubstr("the corner is at X-40.000 Y-30.000 Z-5.000"));
+              AllOf(HasSubstr("the corner is at X-40.000 Y-30.000 Z-5.000"), HasSubstr(", 28.284 mm from the pole")));
+  // Four points are searched over 20 mm before and behind their places at least.
+  EXPECT_THAT(texts("CYCLE961(18,,1,-20,-80,20,-80,-90,10,-90,25,,,0,,0,3,20,1,,1,)", -90, -80),
+              AllOf(HasSubstr("the corner is at X-40.000 Y-30.000 Z-5.000"), HasSubstr(", 70.711 mm from the pole")));
+  // A second side at 70 degrees, that of another block.
+  world.part =
+      "[part]\npose = { z = -480 }\n[[part.feature]]\nshape = \"box\"\ncentre = [20, 0, -20]\nsize = [70, 60, 20]\n";
+  world.more =
+      "[[fixture]]\nname = \"block\"\npose = { x = -40, y = -30, z = -500, c = -20 }\n[[fixture.feature]]\n"
+      "shape = \"box\"\ncentre = [15, 30, 0]\nsize = [30, 60, 20]\n";
+  const std::string slanted = texts("CYCLE961(8,,1,95,150,80,110,-105,-80,,,,,0,70,0,3,20,1,,1,)", -105, -80);
+  EXPECT_THAT(slanted, HasSubstr("the corner is at X-40.000 Y-30.000 Z-5.000"));
+  EXPECT_THAT(slanted, Not(HasSubstr("is turned by")));
+  world.more = "";
   world.part =
       boxWith("[[part.feature]]\nshape = \"pocket\"\nsize = [90, 80]\ndepth = 20\ncorner_radius = 2\n", "{ z = -480 }");
   EXPECT_THAT(texts("CYCLE961(5,,1,20,40,20,,-25,-20,,,,,0,,0,3,20,1,,1,)", -25, -20),
@@ -239,6 +253,20 @@ TEST(Outlines, OfABodyTellWhatHelps) {
   ASSERT_FALSE(roof.finished());
   EXPECT_THAT(textsOf(roof), HasSubstr("the body met \"fixture\""));
   EXPECT_THAT(textsOf(roof), Not(HasSubstr("too wide")));
+}
+
+/// A program that goes on after it found nothing has no alarm to explain.
+TEST(Outlines, OfATouchThatTheProgramDoesNotNeedAreNotTold) {
+  World world;
+  world.origin = {0, 0, -480};
+  world.part = plate("{ z = -480 }");
+  const Told told = run(world, probe +
+                                   "L X-60 Y+0 FMAX\nL Z-8 FMAX\nTCH PROBE 3.0 MEASURING\nTCH PROBE 3.1 Q1\n"
+                                   "TCH PROBE 3.2 X ANGLE: +0\nTCH PROBE 3.3 DIST +5 F100 MB 1 REFERENCE SYSTEM: 0\n"
+                                   "TCH PROBE 3.4 ERRORMODE1\n");
+  ASSERT_TRUE(told.finished()) << told.why();
+  EXPECT_EQ(told.outcome.journal.interrupted.size(), 1U);
+  EXPECT_EQ(textsOf(told), "");
 }
 
 }  // namespace

@@ -251,5 +251,44 @@ TEST(TouchedFaces, InMachineCoordinatesAreToldWhileTheTableStandsAtZero) {
   }
 }
 
+/// A probe that lies along Y measures in the plane of Z and X.
+TEST(TouchedFaces, InAnotherPlaneAreThoseOfItsAxes) {
+  World world = worldWith("[part]\npose = { x = 0.3, z = -479.6, a = -90 }\n" + box({0, 0, -20}, {80, 60, 20}) +
+                          "[[part.feature]]\nshape = \"hole\"\ndiameter = 30.01\n");
+  world.probe = "shank_direction = [0, 1, 0]\n";
+  const Told told = run(world,
+                        "TOOL CALL 1 Y\nL Y+50 R0 FMAX\nL X+0 Z+0 FMAX\nTCH PROBE 421 HOLE ~\nQ273=+0 ~\nQ274=+0 ~\n"
+                        "Q262=+30 ~\nQ325=+0 ~\nQ247=+90 ~\nQ261=-5 ~\nQ320=+2 ~\nQ260=+20 ~\nQ301=+0 ~\nQ275=+30.1 ~\n"
+                        "Q276=+29 ~\nQ279=+1 ~\nQ280=+1 ~\nQ281=+0 ~\nQ309=+0 ~\nQ330=+0\n");
+  ASSERT_TRUE(told.finished()) << told.why();
+  EXPECT_NEAR(told.value("Q151"), 0.4, exact);
+  EXPECT_NEAR(told.value("Q152"), 0.3, exact);
+  EXPECT_NEAR(told.value("Q153"), 30.01, exact);
+}
+
+/// Its walls lean both ways: at each height they cross elsewhere.
+TEST(TouchedFaces, OfALeaningCornerAreThoseAtTheHeightOfTheTouches) {
+  for (const double lower : {0.0, 6.0}) {
+    World world = worldWith(plate("{ z = -480, a = 2, b = 1.5 }"));
+    world.origin.z() -= lower;
+    const Told told = run(
+        world,
+        probe + fmt::format(
+                    "TCH PROBE 414 CORNER ~\nQ263=-30 ~\nQ264=-30 ~\nQ326=+20 ~\nQ296=-40 ~\nQ297=-20 ~\nQ327=+20 ~\n"
+                    "Q261={:+} ~\nQ320=+3 ~\nQ260=+26 ~\nQ301=+1 ~\nQ304=+0 ~\nQ305=+1 ~\nQ331=+0 ~\nQ332=+0 ~\n"
+                    "Q303=+1 ~\nQ381=+0 ~\nQ382=+0 ~\nQ383=+0 ~\nQ384=+0 ~\nQ333=+0\n",
+                    lower - 8));
+    ASSERT_TRUE(told.finished()) << told.why();
+    // Where the planes of both sides and that of the height meet; each ball touches a little beside the height.
+    const Matrix3 turned =
+        (probewright::rotation(Vector3::UnitY(), 1.5) * probewright::rotation(Vector3::UnitX(), 2)).linear();
+    Matrix3 normals;
+    normals << turned.col(0).transpose(), turned.col(1).transpose(), Vector3::UnitZ().transpose();
+    const Vector3 corner = normals.inverse() * Vector3(-40, -30, -8);
+    EXPECT_NEAR(told.value("Q151"), corner.x(), 0.005) << lower;
+    EXPECT_NEAR(told.value("Q152"), corner.y(), 0.005) << lower;
+  }
+}
+
 }  // namespace
 }  // namespace probewright::truth::testing

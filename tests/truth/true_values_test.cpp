@@ -97,6 +97,7 @@ TEST(TrueValues, OfARectangleAreThoseOfItsFaces) {
   EXPECT_NEAR(told.value("Q155"), 20, exact);
   EXPECT_NEAR(told.value("Q151"), 0.3, exact);
   EXPECT_NEAR(told.value("Q152"), -0.2, exact);
+  EXPECT_EQ(told.of("Q151")->shape, "plane");
   // Probed along the axes a turned rectangle is longer: 30 / cos(1 degree).
   EXPECT_NEAR(told.measured("Q154"), 30 / std::cos(radiansFromDegrees(1)), 0.002);
 }
