@@ -281,6 +281,13 @@ TEST(BuilderFunction, IsGivenTheAngles) {
   EXPECT_EQ(ran.q(121), 270);
   EXPECT_EQ(ran.touches(), 4U * 5);
   EXPECT_LT(apart(machine::corrected(world.built(), kinematicsOf(ran, world.built()).axes), world.truth()).place, 1e-6);
+  // A stands at its angle of incidence while C is measured.
+  SphereWorld head(builds()[2]);
+  head.bench.setup.beliefs.parameters["mStrobeRotAxPos"] = {8.0, {}};
+  const Ran both = head.bench.run(probe(451, words451(head.build, 0)));
+  ASSERT_TRUE(ended(both)) << both.why();
+  EXPECT_EQ(both.q(120), 45);
+  EXPECT_EQ(both.q(122), 270);
 }
 
 }  // namespace

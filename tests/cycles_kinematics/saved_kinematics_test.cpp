@@ -1,4 +1,6 @@
 #include "cycles_kinematics/sphere_worlds.hpp"
+#include "session/check.hpp"
+#include "session/source.hpp"
 
 /// Cycle 450: the active kinematics is saved, put back, shown and deleted.
 namespace probewright::testing_support {
@@ -102,6 +104,29 @@ TEST(Cycle450, RefusesWhatItCannotDo) {
   SphereWorld other(builds()[0]);
   folder.put("DATA450.KD", other.bench.run(cycle450(0, "Q409=3")).outcome.files.at("DATA450.KD"));
   EXPECT_EQ(alarm(cycle450(1, "Q409=3")), "Kinematics not identical");
+}
+
+/// What is wrong with the name of a record is said before the program runs, where the cycle uses the name.
+TEST(Cycle450, NamesAreChecked) {
+  const auto told = [](const std::string& mode, const std::string& record) {
+    const auto program = session::programOf(
+        "A.H",
+        "BEGIN PGM A MM\nTOOL CALL 1 Z\n" +
+            fmt::format("TCH PROBE 450 SAVE KINEMATICS ~\n  Q410={} ;MODE ~\n  {} ;MEMORY DESIGNATION\n", mode,
+                        record) +
+            "END PGM A MM\n",
+        language::ProgramLanguage::Klartext);
+    const Diagnostics found = session::checkProgram(*program, ControlKind::TNC640);
+    return found.empty() ? std::string() : found.front().message;
+  };
+  const std::string tooLong = "QS409=\"ABCDEFGHIJKLMNOPQ\"";
+  for (const char* mode : {"+0", "+1", "+3"})
+    EXPECT_NE(told(mode, tooLong).find("more than 16 characters"), std::string::npos)
+        << mode << ": " << told(mode, tooLong);
+  EXPECT_EQ(told("+2", tooLong), "");
+  EXPECT_EQ(told("+Q1", tooLong), "") << "only the running program knows";
+  EXPECT_EQ(told("+0", "QS409=\"ABCDEFGHIJKLMNOP\""), "");
+  EXPECT_EQ(told("+0", "Q409=5"), "");
 }
 
 /// The memory places of the iTNC 530 are kept by the code number with which they were saved.

@@ -40,6 +40,7 @@ TEST(Cycle976, CalibratesInARing) {
     place(truth, simulation::Ring(radius, 60, -40), translation(Vector3(0, 0, table) + error));
     SinumerikBench bench(truth);
     forgetCalibration(bench);
+    bench.set("$TC_DP7", {1, 1}, 1.5);  // of L-shaped and star probes alone
     plantFrame(bench, "$P_UIFR", 1, {0, 0, table});
     bench.start({0, 0, -10});
     bench.run("CYCLE976", {{"S_MVAR", (known ? 1.0 : 2.0) + (world % 3 == 0 ? 100000 : 0)},
@@ -219,7 +220,7 @@ TEST(Cycle976, CalibratesOnABall) {
     bench.run("CYCLE976", {{"S_MVAR", 1000003.0 + (round ? 100000 : 0)},
                            {"S_SETV", 2 * radius},
                            {"S_SETV0", radius},
-                           {"S_FA", 5},
+                           {"S_FA", toCentre ? 3 : 5},
                            {"S_TSA", 3},
                            {"S_STA1", plant.number(-45, 45)}});
     // The top is touched beside the axis by at most the start error: its height errs by the square of what is left.

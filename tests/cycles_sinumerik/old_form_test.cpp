@@ -216,6 +216,9 @@ TEST(OldForm, MeasuresASurfaceWithSpindleReversal) {
   EXPECT_NEAR(measured(0, 2), -0.25 + 0.05, 1e-9);
   EXPECT_NEAR(measured(1000, 1), 0.5, 1e-9);
   EXPECT_NEAR(measured(1000, 2), -0.25, 1e-9);
+  bench.start({-12, 20, -10});
+  bench.run("CYCLE998", {}, {}, "_MVAR=1005 _SETVAL=0 _MA=201 _ID=40 _FA=9 _TSA=9\n");
+  EXPECT_NEAR(bench.ovr(4), 0, 1e-9);
 }
 
 TEST(OldForm, MeasuresWithItsOwnFeed) {
@@ -286,6 +289,13 @@ TEST(OldForm, SaysWhatItCannotCarryOut) {
       {"CYCLE973", "_MVAR=12 _FA=6 _TSA=2", "61307", "13, in a groove"},
       {"CYCLE973", "_MVAR=3013 _FA=6 _TSA=2", "61307", "13, in a groove"},
       {"CYCLE973", "_MVAR=2013 _MA=2 _FA=6 _TSA=2", "61307", "touched in one direction"},
+      {"CYCLE978", "_MVAR=10 _SETVAL=0 _MA=1 _FA=6 _TSA=2", "61307", "_MVAR = 10"},
+      {"CYCLE978", "_MVAR=1 _SETVAL=0 _MA=1 _FA=6 _TSA=2", "61307", "_MVAR = 1"},
+      {"CYCLE978", "_MVAR=2000 _SETVAL=0 _MA=1 _FA=6 _TSA=2", "61307", "_MVAR = 2000"},
+      {"CYCLE998", "_MVAR=15 _SETVAL=0 _MA=201 _ID=40 _FA=6 _TSA=2", "61307", "_MVAR = 15"},
+      {"CYCLE998", "_MVAR=2005 _SETVAL=0 _MA=201 _ID=40 _FA=6 _TSA=2", "61307", "_MVAR = 2005"},
+      {"CYCLE998", "_MVAR=10005 _SETVAL=0 _MA=201 _ID=40 _FA=6 _TSA=2", "61307", "_MVAR = 10005"},
+      {"CYCLE998", "_MVAR=200005 _SETVAL=0 _MA=201 _ID=40 _FA=6 _TSA=2", "61307", "_MVAR = 200005"},
       {"CYCLE976", "_MVAR=10101 _SETVAL=40 _FA=6 _TSA=2", "61307", "_MVAR = 10101"},
       {"CYCLE977", "_MVAR=201 _SETVAL=40 _FA=6 _TSA=2", "61307", "_MVAR = 201"},
       {"CYCLE977", "_MVAR=101 _SETVAL=40 _FA=6 _TSA=2 _KNUM=1099", "61321", "_KNUM = 1099"},

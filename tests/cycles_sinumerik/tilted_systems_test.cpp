@@ -48,6 +48,23 @@ TEST(TiltedSystems, EachVariantPutsThePartInItsPlace) {
   }
 }
 
+/// Calibrated on an edge, the ball's centre ends S_FA in front of it, wherever the tool's tip is then.
+TEST(TiltedSystems, ACalibrationOnAnEdgeEndsInFrontOfIt) {
+  for (const double about : {4.0, -4.0}) {
+    const Tilt tilt({0, about, 0});
+    simulation::Truth truth = perfectWorld();
+    truth.tools[0].probe.stylusRadius = 0.5;
+    place(truth, simulation::Box({15, -50, -40}, {80, 50, 0}), tilt.pose);
+    SinumerikBench bench(truth);
+    plantFrame(bench, "$P_UIFR", 1, origin, tilt.angles);
+    bench.start({5, 0, -10});
+    bench.run("CYCLE976", {{"S_MVAR", 11004}, {"S_SETV", 15}, {"S_MA", 1}, {"S_MD", 0}, {"S_FA", 5}, {"S_TSA", 1}});
+    const Vector3 tip = bench.control.channel.position().vector();
+    const Vector3 ball = tip + 2 * (tilt.pose.linear().inverse() * Vector3::UnitZ());
+    EXPECT_NEAR(ball.x(), 15 - 5, 1e-6) << about;
+  }
+}
+
 TEST(TiltedSystems, ThreeBallsAreFoundFromAnApproximateRotation) {
   // As the workpiece lies, by some degrees; the rotation that was entered before the cycle, by some tenths more or
   // less.

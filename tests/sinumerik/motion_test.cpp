@@ -50,6 +50,14 @@ TEST(SinumerikMotion, FeedMustBeProgrammed) {
   World world;
   EXPECT_EQ(world.alarm("G1 X10\n"), "10860");
   EXPECT_EQ(world.alarm("G95 G1 X10 F0.1\n"), "10860");
+  // Which of the two is missing is said.
+  for (const auto& [block, missing] :
+       {std::pair("G95 G1 X10\n", "no feed"), {"G95 G1 X10 F0.1\n", "turning spindle"}, {"G94 G1 X10\n", "no feed"}}) {
+    World without;
+    const execution::RunResult result = without.tryRun(block);
+    ASSERT_FALSE(result.diagnostics.empty()) << block;
+    EXPECT_NE(result.diagnostics[0].message.find(missing), std::string::npos) << result.diagnostics[0].message;
+  }
   world.run("S1000 M3 G95 F0.2\nG1 X20\n");
   EXPECT_EQ(world.machine.moves.back().feed.perMinute, 200);
   // A taper thread from X20 Z0: 2 mm along Z with each of 1000 turns a minute, 20 mm down and 10 aside.
@@ -406,6 +414,13 @@ TEST(SinumerikMotion, ToolRadiusCompensationKeepsTheDistance) {
   ASSERT_EQ(builder.machine.functions, std::vector<int>{100});
   ASSERT_GE(builder.machine.movesBefore[0], 3U);
   EXPECT_NEAR(tipOf(builder, builder.machine.movesBefore[0] - 1).y(), 40, 1e-9) << "at the end of the block before it";
+  // Coolant does not.
+  for (const int coolant : {7, 8, 9}) {
+    World cooled;
+    cooled.run(fmt::format("T1 M6\nG0 X-20 Y-20\nF500\nG41 G1 X0 Y0\nY40\nM{}\nX40\nG40 X60 Y60\n", coolant));
+    ASSERT_EQ(cooled.machine.functions, std::vector<int>{coolant});
+    EXPECT_LT(cooled.machine.movesBefore[0], builder.machine.movesBefore[0]) << coolant;
+  }
   World tight, equal;
   EXPECT_EQ(tight.alarm("T1 M6\nG0 X0 Y0\nF500\nG41 G1 X3 Y0\nG3 X3 Y0 I-3 J0\nG40 G1 X0 Y0\n"), "10753");
   EXPECT_EQ(equal.alarm("T1 M6\nG0 X0 Y0\nF500\nG41 G1 X5 Y0\nG3 X5 Y0 I-5 J0\nG40 G1 X0 Y0\n"), "10753")

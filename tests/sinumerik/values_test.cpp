@@ -65,6 +65,8 @@ TEST(SinumerikValues, ExpressionsAreWorthWhatTheLanguageSays) {
       {"ISVAR(\"NOTHING_\")", 0},
       {"ISAXIS(3)", 1},
       {"TOUPPER(\"aBc\")==\"ABC\"", 1},
+      {"TOUPPER(\"azAZ@[`{\")==\"AZAZ@[`{\"", 1},
+      {"TOLOWER(\"azAZ@[`{\")==\"azaz@[`{\"", 1},
       {"SUBSTR(\"PROBE\",1,3)==\"ROB\"", 1},
       {"SUBSTR(\"PROBE\",3)==\"BE\"", 1},
       {"SPRINT(\"%7.2F|%D|%s|%X\",3.14159,7,\"x\",255)==\"   3.14|7|x|FF\"", 1},
@@ -120,6 +122,24 @@ TEST(SinumerikValues, MistakesRaiseTheControlsAlarms) {
   EXPECT_EQ(world.alarm("R1=NUMBER(\"x\")\n"), "14020");
   EXPECT_EQ(world.alarm("$P_TOOLNO=3\n"), "12130");
   EXPECT_EQ(world.alarm("R20000=1\n"), "17020");
+}
+
+TEST(SinumerikValues, ArraysHaveOneTo65536Elements) {
+  for (const auto& [size, refused] : {std::pair("0", true),
+                                      {"1", false},
+                                      {"1.5", true},
+                                      {"65536", false},
+                                      {"65537", true},
+                                      {"-1", true},
+                                      {"2000000", true}}) {
+    const std::string text = fmt::format("DEF REAL SIZE={}\nDEF BOOL AA[SIZE]\n", size);
+    if (refused)
+      EXPECT_EQ(World().alarm(text), "12200") << size;
+    else
+      World().run(text);
+  }
+  World().run("DEF INT SIZE=256\nDEF BOOL AA[SIZE,SIZE]\n");
+  EXPECT_EQ(World().alarm("DEF INT SIZE=256\nDEF BOOL AA[SIZE,SIZE+1]\n"), "12200");
 }
 
 TEST(SinumerikFlow, LoopsAndBranches) {
