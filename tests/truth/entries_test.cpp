@@ -6,7 +6,6 @@
 #include <fstream>
 #include <iterator>
 
-#include "control/heidenhain/kinematic_tables.hpp"
 #include "control/heidenhain/preset_table.hpp"
 #include "control/heidenhain/turning_tool_table.hpp"
 #include "reports/summary.hpp"
@@ -251,118 +250,6 @@ TEST(Entries, OfADirectionalCalibrationAreItsDirections) {
   ASSERT_TRUE(rough.finished()) << rough.why();
   EXPECT_GT(*entry(rough, "T1.3DTC").distance, 0.002);
   EXPECT_THAT(reports::summaryText(rough.outcome.journal, rough.outcome.info), HasSubstr("T1.3DTC: "));
-}
-
-/// Rotary axes that wander with their angle: the grid of cycle 453 against where the tip truly goes.
-TEST(Entries, OfACompensationGridAreItsPositions) {
-  const TableFolder folder;
-  const std::array<double, 3> b = {-60, 0, 60};
-  const std::array<double, 4> c = {0, 90, 180, 270};
-  folder.put("MACHINE.KCO", [&] {
-    namespace hh = control::heidenhain;
-    auto table = hh::TypedTable::create("MACHINE.KCO", hh::TableUnit::Millimetre, hh::gridColumns(),
-                                        control::ControlKind::TNC640, 0);
-    int row = 0;
-    for (const double first : b) {
-      for (const double second : c) {
-        const std::string key = std::to_string(row++);
-        EXPECT_TRUE(table.setNumber(key, "B", first) && table.setNumber(key, "C", second));
-        for (const hh::NumberColumn column : {hh::NumberColumn("DX"), hh::NumberColumn("DY"), hh::NumberColumn("DZ")})
-          EXPECT_TRUE(table.setNumber(key, column, 0));
-      }
-    }
-    return std::string(table.table().bytes());
-  }());
-  const std::string stand = "[sphere]\ndiameter = 25\nstem_diameter = 8\npose = { x = 150, y = 60, z = -420 }\n";
-  const auto measured = [&](double repeatability, const std::string& sphere, int mode = 1) {
-    folder.put("mill.toml", fmt::format(R"(seed = 453
-[machine]
-name = "mill5-head-table"
-[control]
-type = "TNC640"
-tables = "."
-[[preset]]
-row = 1
-origin = [150, 60, -420]
-active = true
-{}
-[[tool]]
-number = 2
-kind = "mill"
-length = 80
-radius = 5
-[[tool]]
-number = 1
-kind = "probe"
-length = 150
-ball_radius = 3
-in_spindle = true
-repeatability = {}
-[[errors.axis.C.deviation]]
-amplitude = 0.004
-wavelength = 120
-phase = 20
-[[errors.axis.B.deviation]]
-amplitude = 0.003
-wavelength = 90
-phase = 50
-)",
-                                        sphere, repeatability));
-    Diagnostics diagnostics;
-    const auto setup = setup::readSetup((folder.path() / "mill.toml").string(), diagnostics);
-    EXPECT_TRUE(setup) << format(diagnostics.front());
-    // Another tool comes into the spindle afterwards.
-    return Told{
-        setup::runText("T.H",
-                       fmt::format("BEGIN PGM T MM\nTOOL CALL 1 Z\nL Z+80 R0 FMAX\nTCH PROBE 453 KINEMATICS GRID "
-                                   "~\nQ406=+{} ~\nQ407=+12.5 ~\nQ320=+0 ~\nQ408=+0 ~\nQ253=+5000 ~\nQ380=+45 ~\n"
-                                   "Q423=+4 ~\nQ431=+0\nL Z+100 R0 FMAX\nTOOL CALL 2 Z\nL Z+100 R0 FMAX\n"
-                                   "END PGM T MM\n",
-                                   mode),
-                       *setup, session::RunOptions())
-            .outcome};
-  };
-  const Told exact = measured(0, stand);
-  ASSERT_TRUE(exact.finished()) << exact.why();
-  const records::EntryTruth& grid = entry(exact, "MACHINE.KCO");
-  EXPECT_EQ(grid.kind, records::EntryKind::Kinematics);
-  ASSERT_EQ(grid.values.size(), 3 * b.size() * c.size());
-  EXPECT_LT(*grid.distance, 2e-5);
-  // 0.004 degrees at 160 mm from the axis are 0.011 mm.
-  EXPECT_GT(std::ranges::max(grid.values, {}, &records::EntryValue::value).value, 0.005);
-  // A sphere of the part serves as well; nothing is told where nothing was written.
-  const Told part = measured(
-      0, "[part]\npose = { x = 150, y = 60, z = -420 }\n[[part.feature]]\nshape = \"sphere\"\ndiameter = 25\n");
-  ASSERT_TRUE(part.finished()) << part.why();
-  EXPECT_LT(*entry(part, "MACHINE.KCO").distance, 2e-5);
-  EXPECT_TRUE(measured(0, stand, 0).truth().entries.empty());
-  const Told rough = measured(0.003, stand);
-  ASSERT_TRUE(rough.finished()) << rough.why();
-  EXPECT_GT(*entry(rough, "MACHINE.KCO").distance, 0.0015);
-  EXPECT_LT(*entry(rough, "MACHINE.KCO").distance, 0.02);
-  // What all positions have in common is left out: on the table, which C turns, what is left has no mean.
-  const records::EntryTruth& left = entry(rough, "MACHINE.KCO");
-  Vector3 sum = Vector3::Zero();
-  double first = 0;
-  ASSERT_EQ(left.values.size(), 3 * b.size() * c.size());
-  for (std::size_t row = 0; row < b.size() * c.size(); ++row) {
-    Vector3 off;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const records::EntryValue& value = left.values[3 * row + axis];
-      off[static_cast<Eigen::Index>(axis)] = value.truth - value.value;
-    }
-    if (row == 0) first = off.norm();
-    sum += rotation(-Vector3::UnitZ(), c[row % c.size()]).inverse() * off;
-  }
-  // What is told as true is nearer to what a perfect probe measures than what was measured.
-  double told = 0, seen = 0;
-  for (std::size_t i = 0; i < left.values.size(); ++i) {
-    told += std::pow(left.values[i].truth - grid.values[i].value, 2);
-    seen += std::pow(left.values[i].value - grid.values[i].value, 2);
-  }
-  EXPECT_LT(told, 0.5 * seen);
-  EXPECT_GT(first, 1e-4);
-  EXPECT_LT(sum.norm(), 0.01 * first) << sum.transpose();
 }
 
 /// A setup with a mill of 16 and a round contact.

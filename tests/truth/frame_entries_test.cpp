@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "control/heidenhain/preset_table.hpp"
 #include "machine/machine_file.hpp"
 #include "truth/told.hpp"
 
@@ -155,6 +156,53 @@ TEST(FrameEntries, OfARotaryAxisAreTheAngleAtWhichTheEdgeIsStraight) {
     EXPECT_NEAR(value(preset, "C_OFFS").truth, c, 2e-3);
     EXPECT_NEAR(*preset.angle, 0.01, 2e-3);
   }
+}
+
+/// The same on a table that turns the other way round, and one whose offset stood at 10 degrees before.
+TEST(FrameEntries, OfARotaryAxisCountInItsSense) {
+  std::ifstream file(PROBEWRIGHT_EXAMPLES "/../machines/mill5-table-table.toml");
+  std::string machine(std::istreambuf_iterator<char>(file), {});
+  const std::string direction = "direction = [0, 0, -1]";
+  ASSERT_NE(machine.find(direction), std::string::npos);
+  machine.replace(machine.find(direction), direction.size(), "direction = [0, 0, 1]");
+  for (const double before : {0.0, 10.0}) {
+    const TableFolder folder;
+    folder.put("mill.toml", machine);
+    auto presets = control::heidenhain::defaultPresetTable(control::ControlKind::TNC640,
+                                                           control::heidenhain::TableUnit::Millimetre);
+    EXPECT_TRUE(presets.setNumber("1", "Z", -480) && presets.setNumber("1", "C_OFFS", before));
+    folder.put("PRESET.PR", std::string(presets.table().bytes()));
+    World world = worldWith("tables = \".\"\n" + plate("{ z = -480, c = 2 }"));
+    world.more =
+        "[machine]\nfile = \"mill.toml\"\n[[errors.squareness]]\naxis = \"X\"\ntowards = \"Y\"\ndegrees = 0.01\n";
+    folder.put("setup.toml", world.text());
+    Diagnostics diagnostics;
+    const auto setup = setup::readSetup((folder.path() / "setup.toml").string(), diagnostics);
+    ASSERT_TRUE(setup) << format(diagnostics.front());
+    const Told told{
+        setup::runText("T.H",
+                       "BEGIN PGM T MM\n" + probe +
+                           "TCH PROBE 403 ROTATION ~\nQ263=-30 ~\nQ264=-30 ~\nQ265=+30 ~\nQ266=-30 ~\nQ272=+2 ~\n"
+                           "Q267=+1 ~\nQ261=-8 ~\nQ320=+4 ~\nQ260=+40 ~\nQ301=+1 ~\nQ312=+6 ~\nQ337=+1 ~\nQ305=+1 ~\n"
+                           "Q303=+1 ~\nQ380=+0\nEND PGM T MM\n",
+                       *setup, session::RunOptions())
+            .outcome};
+    ASSERT_TRUE(told.finished()) << told.why();
+    const records::EntryTruth& preset = entry(told, "preset 1");
+    EXPECT_NEAR(value(preset, "C_OFFS").truth, -2, 2e-3) << before;
+    EXPECT_NEAR(std::abs(value(preset, "C_OFFS").value + 2), 0.01, 2e-3) << before;
+  }
+}
+
+/// A rotary axis that CYCLE998 corrects is not one of the axes whose offsets are told.
+TEST(FrameEntries, OfAnOffsetOfARotaryAxisAreNotToldOnASinumerik) {
+  World world = worldWith(plate("{ z = -480, c = 2 }"), "840Dsl");
+  world.more = "[machine]\nname = \"mill5-table-table\"\n";
+  const Told told =
+      run(world,
+          "T1 D1\nM6\nG54 G17 G0 X-20 Y-45 Z20\nG1 Z-8 F2000\nCYCLE998(105,10001,5,1,0,0,,15,10,102,1,40,,,,,1,,1,)\n");
+  ASSERT_TRUE(told.finished()) << told.why();
+  EXPECT_THAT(told.truth().entries, IsEmpty());
 }
 
 TEST(FrameEntries, OfAZeroOffsetAreToldInEachAxisThatACycleCorrected) {
