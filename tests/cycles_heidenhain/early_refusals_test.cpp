@@ -85,9 +85,15 @@ TEST(EarlyRefusals, OfLockedRowsAndMissingDatumTables) {
 TEST(EarlyRefusals, OfPointsThatTellNothing) {
   for (const ControlKind kind : {ControlKind::TNC640, ControlKind::iTNC530}) {
     expectUntouched(benchOf(kind).run(probe(414, corner)), "Corner not determined", "Q326");
+    expectUntouched(benchOf(kind).run(probe(414, with(corner, {{326, 40}, {327, 0}}))), "Corner not determined",
+                    "Q327");
     const Words holes = {{268, 0},  {269, 0},  {270, 50}, {271, 0}, {316, 0}, {317, 0}, {318, 0},
                          {319, 50}, {261, -8}, {260, 30}, {305, 1}, {331, 0}, {332, 0}, {303, 1}};
     expectUntouched(benchOf(kind).run(probe(418, holes)), "Intersection not determined", "1 and 3");
+    expectUntouched(benchOf(kind).run(probe(418, with(holes, {{316, 50}, {318, 50}, {319, 0}}))),
+                    "Intersection not determined", "Holes 2 and 4");
+    expectUntouched(benchOf(kind).run(probe(418, with(holes, {{316, 50}, {318, 20}, {319, 0}}))),
+                    "Intersection not determined", "parallel");
   }
 }
 

@@ -38,6 +38,9 @@ TEST(Cycle979, FindsCentreAndDiameterOfASegment) {
     EXPECT_NEAR(bench.ovr(4), 2 * radius, 1e-7) << world;
     EXPECT_NEAR(bench.ovr(5), centre.x(), 1e-7);
     EXPECT_NEAR(bench.ovr(6), centre.y(), 1e-7);
+    EXPECT_NEAR(bench.ovr(16), 0.3, 1e-7);
+    EXPECT_NEAR(bench.ovr(17), error.x(), 1e-7);
+    EXPECT_NEAR(bench.ovr(18), error.y(), 1e-7);
     EXPECT_NEAR((inWorkpiece(bench, centre).head<2>() - set).norm(), 0, 1e-7);
   }
 }

@@ -84,6 +84,12 @@ TEST(Statements, TabdataReadsAndWritesTheTablesOfTheControl) {
   EXPECT_NEAR(world.machine->steps[1].axes[2], 50.75, 1e-9);
   EXPECT_NEAR(world.machine->steps[2].axes[0], 13, 1e-9);
   EXPECT_EQ(world.control->tables.tools.numberOr("5", "DL", 0), 0.75);
+  // A rotation of the active preset is in effect at once.
+  expectFinished(
+      world.run("TABDATA WRITE PRESET COLUMN \"X\" KEY \"0\" = +0\nTABDATA WRITE PRESET COLUMN \"SPC\" KEY \"0\" = "
+                "+90\nL X+10 Y+0 R0 FMAX\n"));
+  EXPECT_NEAR(world.machine->steps.back().axes[0], 0, 1e-9);
+  EXPECT_NEAR(world.machine->steps.back().axes[1], 10, 1e-9);
   EXPECT_EQ(alarmOf(world, "TABDATA READ Q1 = TOOL COLUMN \"LENGTH\" KEY \"5\"\n"),
             "Table entry missing: TOOL.T has no column LENGTH");
   EXPECT_EQ(alarmOf(world, "TABDATA WRITE PRESET COLUMN \"X\" KEY \"77\" = +1\n"),
@@ -210,6 +216,14 @@ TEST(Statements, ToolVectorsOfLinearBlocksTurnTheTool) {
     EXPECT_TRUE(near(world.control->channel.toolAxis().vector(), Vector3(0.2, -0.1, 1).normalized(), 1e-9)) << machine;
     EXPECT_TRUE(near(world.control->channel.position().vector(), {5, 2, 50}, 1e-6)) << machine;
   }
+  // The shortest way: from A-30 C+170 on to A-40, not back to A+40.
+  World shortest("mill5-head-head");
+  expectFinished(
+      shortest.run("TOOL CALL 1 Z\nL X+0 Y+0 Z+100 R0 FMAX\nL A-30 C+170 R0 FMAX\nM128\n"
+                   "LN X+5 Y+2 Z+50 NX+0 NY+0 NZ+1 TX+0 TY-0.6427876 TZ+0.7660444 F1000\n"));
+  const auto& axes = shortest.control->channel.description();
+  const auto turned = shortest.control->channel.axes();
+  EXPECT_LT(std::abs(turned[*axes.axisIndex("A")] + 30) + std::abs(turned[*axes.axisIndex("C")] - 170), 21);
   World world("mill5-head-table");
   expectFinished(world.run("TOOL CALL 1 Z DL+0.1\nLN X+5 Y+2 Z+50 NX+0 NY+0 NZ+1 TX+0 TY+0 TZ+1 F1000\nX+9 R+\n"));
   EXPECT_THAT(

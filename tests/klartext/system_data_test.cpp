@@ -218,6 +218,13 @@ TEST(SystemData, Texts) {
   EXPECT_EQ(text("SYSSTR( ID10060 NR1 )"), "PROBE");
   EXPECT_EQ(text("SYSSTR( ID10950 NR1 IDX5 )"), "MILL");
   EXPECT_EQ(text("SYSSTR( ID10010 NR1 )"), "main.h");
+  world.library.texts["COUNT.H"] = "BEGIN PGM COUNT MM\nEND PGM COUNT MM\n";
+  world.library.texts["OTHER.H"] = "BEGIN PGM OTHER MM\nEND PGM OTHER MM\n";
+  expectFinished(
+      world.run("CYCL DEF 12.0 PGM CALL\nCYCL DEF 12.1 PGM COUNT.H\nSEL PGM \"OTHER.H\"\n"
+                "QS3 = SYSSTR( ID10010 NR3 )\nQS4 = SYSSTR( ID10010 NR10 )\n"));
+  EXPECT_EQ(world.control->q.qs(3), "COUNT.H");
+  EXPECT_EQ(world.control->q.qs(4), "OTHER.H");
   EXPECT_EQ(text("CFGREAD( KEY_QS1 TAG_\"CfgDisplayLanguage\" ATR_\"ncLanguage\" )"), "ENGLISH");
   EXPECT_EQ(text("CFGREAD( KEY_QS1 TAG_\"CfgDisplayData\" ATR_\"axisDisplayOrder\" IDX1 )"), "Y");
   EXPECT_EQ(text("CFGREAD( KEY_QS1 TAG_\"CfgDisplayData\" ATR_\"axisDisplayOrder\" IDX0 )"), "X");

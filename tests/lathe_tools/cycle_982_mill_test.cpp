@@ -130,6 +130,10 @@ TEST(Cycle982Mill, StandsInFrontOfTheFaceThatItTouchedLast) {
   bench.run(measuring(5, startOf(false, 30), "CYCLE982(2001,0,1,2,2,3,5,1)"));
   EXPECT_NEAR(bench.machine.position()[0] - 60, probeMiddle.x() - half - 8 - 5, 1e-6);
   EXPECT_NEAR(bench.machine.position()[1] - 90, probeMiddle.z() - 3, 1e-6) << "S_ID beyond the middle";
+  // From beside the contact the way to its other side would lead through it.
+  LatheBench beside = benchOf(tool);
+  EXPECT_EQ(beside.alarmOf(measuring(5, {probeMiddle.z(), probeMiddle.x() + 30}, "CYCLE982(2001,0,1,2,1,3,5,1)")),
+            "61332");
 }
 
 TEST(Cycle982Mill, ReversalTakesTheMeanOfTwoTeeth) {

@@ -74,6 +74,8 @@ TEST(SinumerikFiles, WhatWasWrittenCanBeReadAgainAndDeleted) {
   world.run("R7=ISFILE(\"..\")\nR8=ISFILE(\"/\")\nR9=ISFILE(\"\")\n");
   EXPECT_EQ(world.r(7) + world.r(8) + world.r(9), 0) << "folders are no files";
   EXPECT_EQ(world.alarm("DEF INT ERR\nWRITE(ERR,\"/_N_WKS_DIR/\",\"a\")\n"), "14020");
+  for (const char* block : {"WRITE(ERR,\"A_MPF\")", "WRITE(ERR,\"A_MPF\",)", "WRITE(,\"A_MPF\",\"a\")", "WRITE(ERR)"})
+    EXPECT_EQ(world.alarm(fmt::format("DEF INT ERR\n{}\n", block)), "14020") << block;
 }
 
 TEST(SinumerikFiles, ErrorsOfReadAreTold) {

@@ -204,6 +204,9 @@ TEST(SinumerikMotion, FunctionsAreChosenByTheirPlaceInTheGroup) {
   EXPECT_EQ(world.control.frames.settable, 2);
   world.run("G90 G17 G[8]=6\nG0 X1\n");
   EXPECT_EQ(world.machine.moves.back().to[0], 51) << "G505";
+  world.control.data.load({"$P_UIFR", {99, "X", "TR"}}, 70.0);
+  world.run("G[8]=100\nG0 X2\n");
+  EXPECT_EQ(world.machine.moves.back().to[0], 72) << "G599";
   world.run("G[1]=2 F100\nX5\n");
   EXPECT_EQ(world.machine.moves.back().feed.perMinute, 100);
   world.run("G[8]=1\nG0 X1\n");

@@ -62,6 +62,8 @@ TEST(SinumerikValues, ExpressionsAreWorthWhatTheLanguageSays) {
       {"ISNUMBER(\"-1.5EX-2\")", 1},
       {"\"A\"<<1==\"A1\"", 1},
       {"ISVAR(\"R7\")", 1},
+      {"ISVAR(\"R[7]\")", 1},
+      {"ISVAR(\"X12\")", 0},
       {"ISVAR(\"NOTHING_\")", 0},
       {"ISAXIS(3)", 1},
       {"TOUPPER(\"aBc\")==\"ABC\"", 1},
