@@ -7,6 +7,8 @@
 
 #include <array>
 #include <atomic>
+#include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <string>
 #include <thread>
@@ -55,6 +57,23 @@ TEST(LineStream, SendsALineWholeThoughSignalsInterruptIt) {
   }
   close(ends[1]);
   sigaction(SIGUSR1, &before, nullptr);
+}
+
+/// Nothing comes in time: that is said, whatever was interrupted before.
+TEST(LineStream, SaysThatNothingCameInTime) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()), 0);
+  LineStream stream(ends[0]);
+  std::string line;
+  errno = EINTR;
+  EXPECT_EQ(stream.receive(line, std::chrono::milliseconds(5), -1), LineStream::Got::Nothing);
+  ASSERT_EQ(::send(ends[1], "a\nb", 3, 0), 3);
+  EXPECT_EQ(stream.receive(line, std::chrono::milliseconds(1000), -1), LineStream::Got::Line);
+  EXPECT_EQ(line, "a");
+  errno = EINTR;
+  EXPECT_EQ(stream.receive(line, std::chrono::milliseconds(5), -1), LineStream::Got::Nothing) << "half a line";
+  close(ends[1]);
+  EXPECT_EQ(stream.receive(line, std::chrono::milliseconds(1000), -1), LineStream::Got::Closed);
 }
 
 }  // namespace

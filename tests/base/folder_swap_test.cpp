@@ -38,6 +38,26 @@ TEST(FolderLock, KeepsTheMarkOfAnUnfinishedSetThatItCannotRemove) {
   fs::remove_all(parent);
 }
 
+/// What a killed run has decided is done by the next one, within the folder only, whatever the list says.
+TEST(FolderLock, DoesWhatWasDecidedWithinTheFolderAlone) {
+  std::string pattern = (fs::path(::testing::TempDir()) / "probewright-swap-XXXXXX").string();
+  ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
+  const fs::path parent = pattern, folder = parent / "out", work = folder / ".probewright-swap";
+  fs::create_directories(work / "new");
+  ASSERT_TRUE(writeFileAtomically(parent / "outside.txt", "stays"));
+  ASSERT_TRUE(writeFileAtomically(folder / "old.txt", "goes"));
+  ASSERT_TRUE(writeFileAtomically(work / "new" / "new.txt", "comes"));
+  ASSERT_TRUE(writeFileAtomically(work / "decided", "-../outside.txt\n+new.txt\n-old.txt\n-\n\n"));
+  {
+    const auto lock = FolderLock::take(folder, {}, [](const fs::path&) { return false; });
+    ASSERT_TRUE(lock);
+  }
+  EXPECT_TRUE(fs::exists(parent / "outside.txt"));
+  EXPECT_FALSE(fs::exists(folder / "old.txt"));
+  EXPECT_TRUE(fs::exists(folder / "new.txt"));
+  fs::remove_all(parent);
+}
+
 /// Whoever has to wait is told so once, and may give up.
 TEST(FolderLock, WaitsForAnotherRunUntilItIsToStop) {
   std::string pattern = (fs::path(::testing::TempDir()) / "probewright-swap-XXXXXX").string();

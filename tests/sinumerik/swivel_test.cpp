@@ -87,6 +87,28 @@ TEST(Swivel, RetractsToThePositionsOfTheDataSet) {
   EXPECT_NE(stayed[2], -42.5);
 }
 
+/// A call without a name means the data set that was used last.
+TEST(Swivel, KeepsToTheDataSetThatWasUsedLast) {
+  World world("mill5-table-table");
+  auto& data = world.control.data;
+  for (int parameter = 1; parameter <= 65; ++parameter) {
+    const std::string name = fmt::format("$TC_CARR{}", parameter);
+    if (parameter == 23)
+      data.load({name, {2}}, data.text(name, {1}));
+    else if (parameter != 34)
+      data.load({name, {2}}, data.number(name, {1}, 0));
+  }
+  data.load({"$TC_CARR34", {1}}, std::string("ONE"));
+  data.load({"$TC_CARR34", {2}}, std::string("TWO"));
+  data.load({"$TC_CARR40", {1}}, -42.5);
+  data.load({"$TC_CARR40", {2}}, -33.0);
+  const std::size_t z = *world.control.channel.description().axisIndex("Z");
+  for (const auto& [name, height] : {std::pair("", -42.5), {"TWO", -33.0}, {"", -33.0}, {"ONE", -42.5}, {"", -42.5}}) {
+    world.run(fmt::format("T2 M6\nG0 Z0\nCYCLE800(1,\"{}\",0,57,0,0,0,10,0,0,0,0,0,-1)\n", name));
+    EXPECT_EQ(world.control.channel.axes()[z], height) << name;
+  }
+}
+
 /// _FR = 4 and 5 retract along the tool, however the head has turned it: 5 by _FR_I, 4 until the first linear axis
 /// ends.
 TEST(Swivel, RetractsAlongTheToolOfATurnedHead) {
