@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "study/adaptive.hpp"
@@ -77,6 +78,12 @@ TEST(Distributions, RefuseWhatIsNone) {
   EXPECT_FALSE(Distribution::make(Samples{}));
   EXPECT_FALSE(Distribution::make(Normal{NAN, 1}));
   EXPECT_FALSE(Distribution::truncated(Normal{0, 1}, {20, 21}));
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (const auto& limits : {std::pair(1.0, 0.0), {1.0, 1.0}, {-infinite, 1.0}, {0.0, infinite}, {std::nan(""), 1.0}}) {
+    const auto refused = Distribution::truncated(Normal{0, 1}, limits);
+    ASSERT_FALSE(refused) << limits.first << " to " << limits.second;
+    EXPECT_NE(refused.error().message.find("the lower first"), std::string::npos) << refused.error().message;
+  }
 }
 
 TEST(Summary, TakesTheIntervalsOfJcgm101) {
