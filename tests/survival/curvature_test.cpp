@@ -134,6 +134,24 @@ TEST(Curvature, IsBoundedForCirclesOfAnySteps) {
   EXPECT_GT(worst, 0.5) << "the bound is so wide that this proves nothing";
 }
 
+/// How far touches of a circle may shift does not depend on where it lies.
+TEST(Curvature, IsTheSameWhereverTheCircleLies) {
+  for (const int count : {3, 4, 6}) {
+    for (const double step : {20.0, 50.0}) {
+      Places places, elsewhere, ways;
+      for (int i = 0; i < count; ++i) {
+        const double angle = i * step * std::numbers::pi / 180;
+        ways.emplace_back(std::cos(angle), std::sin(angle), 0);
+        places.push_back(15 * ways.back());
+        elsewhere.push_back(places.back() + Vector3(120, -80, 0));
+      }
+      const double size = sizeOfRound(places, ways);
+      EXPECT_GT(size, 0);
+      EXPECT_NEAR(sizeOfRound(elsewhere, ways), size, 1e-6 * size) << count << " touches every " << step << " degrees";
+    }
+  }
+}
+
 /// A place `lever` away turns with the line through two touches.
 TEST(Curvature, IsBoundedForPlacesFarFromAnEdge) {
   for (const double lever : {0.0, 5.0, 60.0, 1000.0}) {

@@ -47,5 +47,31 @@ TEST(SurvivalPage, FramesWhatSurvivesAboutTheMiddle) {
   EXPECT_NEAR(widthOf(0.5), 2 * widthOf(0.25), 0.02);
 }
 
+/// A picture of two sides shows the parts that hold the middle of the third.
+TEST(SurvivalPage, ShowsTheSliceThroughTheMiddle) {
+  const SurvivalInfo info{.program = "P.H", .setup = "plate.toml", .version = "1", .text = "0 BEGIN PGM P MM\n"};
+  Survival survival;
+  survival.tolerances.resize(3);
+  for (Tolerance& each : survival.tolerances) {
+    each.low = -1;
+    each.high = 1;
+  }
+  survival.parts.resize(2);
+  survival.parts[0].box = {{-1, -1, -1}, {1, 1, 0.5}};
+  survival.parts[1].box = {{-1, -1, 0.5}, {1, 1, 1}};
+  const auto drawn = [&](Verdict first, Verdict second, Verdict counted) {
+    survival.parts[0].verdict = first;
+    survival.parts[1].verdict = second;
+    const std::string page = survivalPage(survival, info), name = counted == Verdict::Proven ? "proven" : "fails";
+    std::size_t count = 0;
+    for (std::size_t at = page.find("<rect class=\"" + name); at != std::string::npos;
+         at = page.find("<rect class=\"" + name, at + 1))
+      ++count;
+    return count;
+  };
+  EXPECT_EQ(drawn(Verdict::Proven, Verdict::Fails, Verdict::Proven), 3U) << "in the pictures of all three pairs";
+  EXPECT_EQ(drawn(Verdict::Proven, Verdict::Fails, Verdict::Fails), 2U) << "not in that of the first two sides";
+}
+
 }  // namespace
 }  // namespace probewright::survival
