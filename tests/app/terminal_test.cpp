@@ -60,6 +60,11 @@ TEST(Terminal, BreaksLinesBelowTheSecondColumn) {
   // Of two places the one between columns.
   EXPECT_EQ(fitted("      Q153  diameter  30.0100 mm   deviation +0.0100  OK\n", 40),
             "      Q153  diameter  30.0100 mm\n            deviation +0.0100  OK\n");
+  // A second column that begins in the middle still counts, one further on does not.
+  EXPECT_EQ(fitted("  --option-name     The folder for tables and logs\n", 40),
+            "  --option-name     The folder for\n                    tables and logs\n");
+  EXPECT_EQ(fitted("  a description that is long enough  and then a second\n", 40),
+            "  a description that is long enough\n      and then a second\n");
   EXPECT_EQ(fitted("a.h:3:4: error: the cycle lacks a parameter\n", 30),
             "a.h:3:4: error: the cycle\n    lacks a parameter\n");
 }

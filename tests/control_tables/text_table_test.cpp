@@ -125,6 +125,11 @@ TEST(TextTable, KeepsRightAlignedNumbersRightAligned) {
             "1        3.00   -100.00 a\n"
             "2               1234.50 b\n"
             "[END]\n");
+  // A blank is left behind a text, however long it is.
+  TextTable full = read(aligned);
+  EXPECT_FALSE(full.setCell("2", "Y", "-123456.78"));
+  ASSERT_TRUE(full.setCell("2", "Y", "-12345.67"));
+  EXPECT_THAT(full.bytes(), HasSubstr("2             -12345.67 b\n"));
 }
 
 /// Of the last column nothing says how wide it is; what stands in it does.

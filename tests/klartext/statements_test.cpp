@@ -258,6 +258,13 @@ TEST(Statements, TargetsOfFn16MayNameParameters) {
   EXPECT_EQ(files.at("12_LOG.TXT"), "Y\n");
 }
 
+TEST(Statements, SignsOfFn16BehindABackslashAreThemselves) {
+  World world;
+  world.files["M.A"] = "\"new\\nline\\ttab \\\"x\\\" 5 %%\";\n";
+  expectFinished(world.run("FN 16: F-PRINT M.A / L.TXT\n"));
+  EXPECT_EQ(world.control->panel.files().at("L.TXT"), "new\nline\ttab \"x\" 5 %\n");
+}
+
 TEST(Statements, Fn16RefusesNamesThatAreNoLogOfItsOwn) {
   World world;
   world.files["M.A"] = "\"X\";\n";

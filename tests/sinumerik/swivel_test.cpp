@@ -183,16 +183,23 @@ TEST(Swivel, AnAxisThatDoesNotMatterStaysWhereItIs) {
 }
 
 TEST(Swivel, DirectionPicksThePosture) {
-  World smaller("mill5-table-table"), larger("mill5-table-table");
-  smaller.run("CYCLE800(0,\"\",0,57,0,0,0,20,0,0,0,0,0,-1)\n");
-  larger.run("CYCLE800(0,\"\",0,57,0,0,0,20,0,0,0,0,0,1)\n");
-  const auto& description = smaller.machine.description();
-  std::size_t tilting = 0;
-  while (description.axes[tilting].kind != machine::AxisKind::Rotary)
-    ++tilting;
-  const double a = smaller.machine.position()[tilting], b = larger.machine.position()[tilting];
-  EXPECT_NEAR(std::abs(a), 20, 1e-9);
-  EXPECT_LT(a, b);
+  for (const char* name : {"mill5-table-table", "mill5-head-table", "mill5-head-head"}) {
+    World smaller(name), larger(name);
+    smaller.run("CYCLE800(0,\"\",0,57,0,0,0,20,0,0,0,0,0,-1)\n");
+    larger.run("CYCLE800(0,\"\",0,57,0,0,0,20,0,0,0,0,0,1)\n");
+    // The axis that tilts is not C, which turns half round from one posture to the other.
+    const auto& axes = smaller.machine.description().axes;
+    const auto tilting = static_cast<std::size_t>(
+        std::ranges::find_if(
+            axes,
+            [](const machine::Axis& axis) { return axis.kind == machine::AxisKind::Rotary && axis.name != "C"; }) -
+        axes.begin());
+    ASSERT_LT(tilting, axes.size()) << name;
+    const double a = smaller.machine.position()[tilting], b = larger.machine.position()[tilting];
+    EXPECT_NEAR(std::abs(a), 20, 1e-9) << name;
+    EXPECT_NEAR(std::abs(b), 20, 1e-9) << name;
+    EXPECT_LT(a, b) << name;
+  }
 }
 
 TEST(Swivel, WithoutArgumentsThePlaneIsBack) {
