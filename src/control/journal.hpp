@@ -10,6 +10,7 @@
 #include "control/event_list.hpp"
 #include "control/interrupted_motion.hpp"
 #include "control/result_kind.hpp"
+#include "control/working_plane.hpp"
 #include "geometry/primitives.hpp"
 #include "machine/description.hpp"
 #include "metrology/verdict.hpp"
@@ -80,6 +81,7 @@ struct CycleRecord {
   std::string name;  ///< "411", "CYCLE977"
   std::string title;
   SourcePlace place;
+  WorkingPlane plane;  ///< in which the cycle began
   std::vector<ParameterRecord> parameters;
   std::vector<TouchRecord> touches;
   std::vector<FitRecord> fits;

@@ -74,17 +74,34 @@ std::optional<double> byFit(const FitRecord& fit, const ResultRecord& result) {
   return std::nullopt;
 }
 
-/// Touches in pairs that face each other: each pair makes a size and its middle.
-bool inPairs(const std::vector<const TouchRecord*>& touches) {
-  if (touches.size() != 2 && touches.size() != 4) return false;
-  for (std::size_t i = 0; i < touches.size(); i += 2) {
-    const Vector3 &first = touches[i]->direction, &second = touches[i + 1]->direction;
-    if ((first + second).norm() > 1e-6 || std::abs(first.z()) > 1e-9) return false;
+/// The scatter of a touch moves its point along the way of the probe alone.
+std::optional<double> bySingle(const Vector3& way, const ResultRecord& result) {
+  if (result.kind.of.quantity != Quantity::Coordinate) return std::nullopt;
+  const auto along = [&](Eigen::Index axis) {
+    const double share = std::abs(way[axis]);
+    return share > 1e-9 ? std::optional(share) : std::nullopt;  // across the way it is what the program says
+  };
+  switch (result.kind.of.along) {
+    case Along::First:
+      return along(0);
+    case Along::Second:
+      return along(1);
+    case Along::Third:
+      return along(2);
+    default:
+      return 1.0;
   }
+}
+
+/// Touches in pairs that face each other in the working plane: each pair makes a size and its middle.
+bool inPairs(const std::vector<Vector3>& ways) {
+  if (ways.size() != 2 && ways.size() != 4) return false;
+  for (std::size_t i = 0; i < ways.size(); i += 2)
+    if ((ways[i] + ways[i + 1]).norm() > 1e-6 || std::abs(ways[i].z()) > 1e-9) return false;
   return true;
 }
 
-std::optional<double> byPairs(const std::vector<const TouchRecord*>& touches, const ResultRecord& result) {
+std::optional<double> byPairs(const std::vector<Vector3>& ways, const ResultRecord& result) {
   switch (result.kind.of.quantity) {
     case Quantity::Diameter:
     case Quantity::Width:
@@ -94,13 +111,13 @@ std::optional<double> byPairs(const std::vector<const TouchRecord*>& touches, co
       const Along along = result.kind.of.along;
       if (along != Along::First && along != Along::Second) return std::nullopt;
       double variance = 0;
-      for (std::size_t i = 0; i < touches.size(); i += 2)
-        variance += std::pow(touches[i]->direction[along == Along::First ? 0 : 1], 2) / 2;
+      for (std::size_t i = 0; i < ways.size(); i += 2)
+        variance += std::pow(ways[i][along == Along::First ? 0 : 1], 2) / 2;
       return variance > 1e-9 ? std::optional(std::sqrt(variance)) : std::nullopt;
     }
     case Quantity::Coordinate:  // of the middle between the two
-      return touches.size() == 2 && result.kind.of.along == Along::Measuring ? std::optional(std::sqrt(0.5))
-                                                                             : std::nullopt;
+      return ways.size() == 2 && result.kind.of.along == Along::Measuring ? std::optional(std::sqrt(0.5))
+                                                                          : std::nullopt;
     default:
       return std::nullopt;
   }
@@ -129,11 +146,11 @@ std::optional<double> sensitivityToTouches(const CycleRecord& cycle, const Resul
   if (!isMeasured(result)) return std::nullopt;
   if (cycle.fits.size() == 1) return byFit(cycle.fits.front(), result);
   if (!cycle.fits.empty()) return std::nullopt;
-  std::vector<const TouchRecord*> touches;
+  std::vector<Vector3> ways;  // along main, minor and tool axis, as results count
   for (const TouchRecord& touch : cycle.touches)
-    if (touch.outcome == "touched") touches.push_back(&touch);
-  if (touches.size() == 1) return result.kind.of.quantity == Quantity::Coordinate ? std::optional(1.0) : std::nullopt;
-  return inPairs(touches) ? byPairs(touches, result) : std::nullopt;
+    if (touch.outcome == "touched") ways.push_back(cycle.plane.planeFromXyz(touch.direction));
+  if (ways.size() == 1) return bySingle(ways.front(), result);
+  return inPairs(ways) ? byPairs(ways, result) : std::nullopt;
 }
 
 double scatterOf(const simulation::Truth& truth) {

@@ -27,11 +27,12 @@ struct Ran {
 };
 
 /// With a scatter of its own, if one is given: that of the touches stays that of the setup.
-Ran runWith(const std::string& setupText, const std::string& text, std::optional<double> scatter = {}) {
+Ran runWith(const std::string& setupText, const std::string& text, std::optional<double> scatter = {},
+            const std::string& file = "p.h") {
   Diagnostics mistakes;
   const auto setup = setup::parseSetup(setupText, "setup.toml", mistakes);
   EXPECT_TRUE(setup);
-  auto run = setup::runText("p.h", text, *setup, {});
+  auto run = setup::runText(file, text, *setup, {});
   EXPECT_EQ(run.outcome.result.end, execution::RunEnd::Finished);
   EXPECT_FALSE(hasErrors(run.outcome.diagnostics)) << format(run.outcome.diagnostics.front());
   Ran ran;
@@ -87,6 +88,52 @@ TEST(FirstOrder, IsTheClosedFormOfEachCycle) {
   EXPECT_GT(ran.done.given, 8U);
   EXPECT_GT(ran.done.withheld, 0U);
   EXPECT_TRUE(ran.done.notHeld.empty());
+}
+
+/// Cycle 444 on the side of the part towards minus Y.
+std::string alongNormal(double main, double minor) {
+  return fmt::format(
+      "9 TCH PROBE 444 IN 3-D ~\nQ263=-10 ~\nQ264=-30 ~\nQ294=-5 ~\nQ581={:+} ~\nQ582={:+} ~\nQ583=+0 ~\nQ320=+2 "
+      "~\nQ260=+30 ~\nQ309=+0\n",
+      main, minor);
+}
+
+TEST(FirstOrder, LetsASingleTouchScatterAlongItsWayOnly) {
+  const double s = 0.002;
+  const Ran askew = runWith(plateSetup(), program(alongNormal(0.6, -0.8)));
+  for (const auto& [result, share] :
+       {std::pair("Q151", 0.6), {"Q161", 0.6}, {"Q152", 0.8}, {"Q162", 0.8}, {"Q164", 1.0}}) {
+    const auto u = askew.uncertainties.at(std::string("444 ") + result);
+    ASSERT_TRUE(u) << result;
+    EXPECT_NEAR(*u, 2 * share * s, 1e-12) << result;
+  }
+  EXPECT_FALSE(askew.uncertainties.at("444 Q153")) << "it is where the program has put the probe";
+  const Ran square = runWith(plateSetup(), program(alongNormal(0, -1)));
+  EXPECT_FALSE(square.uncertainties.at("444 Q151"));
+  EXPECT_NEAR(*square.uncertainties.at("444 Q152"), 2 * s, 1e-12);
+}
+
+TEST(FirstOrder, CountsAxesInTheWorkingPlane) {
+  const std::string setup = std::string(plateSetup()).replace(plateSetup().find("TNC640"), 6, "840Dsl") +
+                            "[parameters]\n\"$SC_TOOL_LENGTH_CONST\" = 17\n";
+  const auto from = setup.find("[[preset]]");
+  const std::string world = setup.substr(0, from) + "[[zero_offset]]\nname = \"G54\"\n" + setup.substr(from + 19);
+  // In G18 the 1st axis is Z, the 2nd X: the side towards minus X, then the width along X, from below the part.
+  const std::string text =
+      "G18 G90 G71 G54\nT=\"PROBE\" M6 D1\nG0 X-50 Y0\nZ20\nG1 Z-5 F3000\n"
+      "CYCLE978(0,,,1,-40,8,4,2,1,1,\"\",,0,,0,0,,,,,,)\n"
+      "G0 Z20\nX0 Y-45\nG1 Z-5\nCYCLE977(4,0,0,1,80,,,8,4,0,25,,,2,1,\"\",,0,,0,0,,,,,,)\nM30\n";
+  const Ran ran = runWith(world, text, {}, "p.mpf");
+  const double s = 0.002;
+  for (const auto& [result, u] : {std::pair("CYCLE978 _OVR[4]", s),
+                                  {"CYCLE978 _OVR[6]", s},
+                                  {"CYCLE977 _OVR[4]", s * std::sqrt(2.0)},
+                                  {"CYCLE977 _OVR[6]", s / std::sqrt(2.0)}}) {
+    ASSERT_TRUE(ran.uncertainties.contains(result)) << result;
+    ASSERT_TRUE(ran.uncertainties.at(result)) << result;
+    EXPECT_NEAR(*ran.uncertainties.at(result), 2 * u, 1e-12) << result;
+  }
+  EXPECT_FALSE(ran.uncertainties.at("CYCLE977 _OVR[5]")) << "along Z nothing was touched";
 }
 
 TEST(FirstOrder, SaysWhatItDoesNotHold) {

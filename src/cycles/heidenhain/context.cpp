@@ -66,6 +66,7 @@ Context::Context(Control& control, const Entry& entry, const Arguments& argument
   record.name = definition.name;
   record.title = definition.title;
   record.place = std::move(place);
+  record.plane = control.coordinates.plane;
   for (std::size_t i = 0; i < definition.parameters.size(); ++i) {
     const Argument& value = arguments.values()[i];
     const Parameter& parameter = definition.parameters[i];

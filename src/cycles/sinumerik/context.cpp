@@ -98,6 +98,7 @@ Context::Context(Control& control, const Entry& entry, const Arguments& argument
     control.plane = 16 + plane;
     control.handOverFrames();
   }
+  this->record().plane = control.workingPlane();
   resultInteger(2, definition.number);
 }
 
