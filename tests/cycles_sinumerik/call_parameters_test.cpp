@@ -244,7 +244,15 @@ TEST(CallParameters, EvnumTakesAnEmpiricalValueOffWhereItMay) {
     hole.run(cycle, with(call, {{"S_KNUM1", 1}, {"S_SETV", 40}, {"S_FA", 6}, {"S_TSA", 2}, {"S_EVNUM", 7}}),
              {{"S_TNAME", "MILL"}});
     EXPECT_NEAR(hole.data("$TC_DP15", {7, 1}), (0.2 - 0.05) / 2, 1e-7) << cycle;
+    EXPECT_NEAR(hole.ovr(4), 40.2, 1e-7) << "what was measured";
+    EXPECT_NEAR(hole.ovr(16), 0.2 - 0.05, 1e-7) << cycle;
     EXPECT_NEAR(hole.ovr(30), 0.05, 1e-12);
+    // It is taken off before anything is judged: 0.2 lies beyond the safe area, what is left of it within.
+    hole.set("$TC_DP15", {7, 1}, 0);
+    hole.start(start);
+    hole.run(cycle, with(call, {{"S_KNUM1", 1}, {"S_SETV", 40}, {"S_FA", 6}, {"S_TSA", 0.18}, {"S_EVNUM", 7}}),
+             {{"S_TNAME", "MILL"}});
+    EXPECT_NEAR(hole.data("$TC_DP15", {7, 1}), (0.2 - 0.05) / 2, 1e-7) << cycle;
   }
 }
 

@@ -323,22 +323,23 @@ void run(Context& context, const Arguments&) {
   // A chord beside the middle is too short: the diameter is the one through the centre.
   const double size1 = isRound(feature) ? pair2.size : pair1.size;
   const Side side = sideOf(feature);
-  const auto report = [&context](int element, double set, double actual, const Compared& compared) {
+  const double empirical = task == Task::Tool ? empiricalValue(context) : 0;
+  const auto report = [&context](int element, double set, double actual, const Compared& compared, double off = 0) {
     context.result(element, set);
     context.result(4 + element, actual, compared);
-    context.result(16 + element, actual - set);
+    context.result(16 + element, actual - set - off);
   };
   int element = 0;
-  report(element++, set1, size1, comparedSize(context, task, set1, size1, side));
+  report(element++, set1, size1, comparedSize(context, task, set1, size1, side), empirical);
   if (isRectangle(feature)) {
-    report(element++, set2, pair2.size, comparedSize(context, task, set2, pair2.size, side));
+    report(element++, set2, pair2.size, comparedSize(context, task, set2, pair2.size, side), empirical);
   }
   report(element++, setCentre.x(), centre.x(), {.nominal = setCentre.x()});
   report(element, setCentre.y(), centre.y(), {.nominal = setCentre.y()});
   context.noteCall();
 
-  context.checkSafeArea(size1 - set1);
-  if (isRectangle(feature)) context.checkSafeArea(pair2.size - set2);
+  context.checkSafeArea(size1 - set1 - empirical);
+  if (isRectangle(feature)) context.checkSafeArea(pair2.size - set2 - empirical);
   if (task == Task::ZeroOffset) {
     context.checkSafeArea(first.dot(centre - setCentre));
     if (!oneAxis) context.checkSafeArea(second.dot(centre - setCentre));

@@ -158,17 +158,18 @@ void run(Context& context, const Arguments&) {
   const PartPoint centre(fit->shape.centre.x(), fit->shape.centre.y(), setCentre.z());
   const double diameter = 2 * (fit->shape.radius + outwards(side) * prober.ballRadius());
 
+  const double difference = diameter - set - (task == Task::Tool ? empiricalValue(context) : 0);
   context.result(0, set);
   context.result(1, setCentre.x());
   context.result(2, setCentre.y());
   context.result(4, diameter, comparedSize(context, task, set, diameter, side));
   context.result(5, centre.x(), {.nominal = setCentre.x()});
   context.result(6, centre.y(), {.nominal = setCentre.y()});
-  context.result(16, diameter - set);
+  context.result(16, difference);
   context.result(17, centre.x() - setCentre.x());
   context.result(18, centre.y() - setCentre.y());
   context.noteCall();
-  context.checkSafeArea(diameter - set);
+  context.checkSafeArea(difference);
   if (task == Task::ZeroOffset) {
     context.checkSafeArea(centre.x() - setCentre.x());
     context.checkSafeArea(centre.y() - setCentre.y());
