@@ -150,6 +150,18 @@ TEST(SinumerikArguments, ValuesThatNoRunTakesAreNamed) {
   EXPECT_EQ(refused("CYCLE997(101009,,1,25,8,4,,91)"), "S_INCA ");
   EXPECT_EQ(refused("CYCLE976(1001,1,40,,3,0,8,4)"), "S_MA ");
   EXPECT_EQ(refused("CYCLE976(1000,1,0,,3,1,8,4)"), "");
+  EXPECT_EQ(refused("CYCLE976(4,1,0,,1,1,8,4)"), "S_MVAR ") << "an edge in one direction or in both";
+  EXPECT_EQ(refused("CYCLE976(1004,1,0,,1,1,8,4)"), "");
+  EXPECT_EQ(refused("CYCLE976(2004,1,0,,1,1,8,4)"), "S_SETV ") << "how far the edges are apart";
+  for (const char* axes : {"-1", "4", "12", "401", "101", "1"})
+    EXPECT_EQ(refused(std::string("CYCLE994(2,,,1,40,") + axes + ",,20,8,1)"), "S_MA ") << axes;
+  for (const char* axes : {"2", "102", "201", "302"})
+    EXPECT_EQ(refused(std::string("CYCLE994(2,,,1,40,") + axes + ",,20,8,1)"), "") << axes;
+  EXPECT_EQ(refused("CYCLE994(1,,,1,40,1,,,8,1)"), "") << "without a zone the probe stays in the hole";
+  EXPECT_EQ(refused("CYCLE994(2001,,,1,40,2,30,20,8,1)"), "S_MA ") << "past the zone in the axis that is measured";
+  EXPECT_EQ(refused("CYCLE971(1,,1,200,,,8,1)"), "S_MA ") << "an offset axis alone";
+  EXPECT_EQ(refused("CYCLE971(1,,1,201,,,8,1)"), "");
+  EXPECT_EQ(refused("CYCLE976(2004,1,50,,1,1,8,4)"), "");
 }
 
 TEST(SinumerikArguments, WhatTheVersionReservesIsNamed) {

@@ -7,6 +7,7 @@
 
 #include "control/sinumerik/measuring_data.hpp"
 #include "control/sinumerik/tool_data.hpp"
+#include "cycles/sinumerik/call_combinations.hpp"
 #include "cycles/sinumerik/context.hpp"
 #include "cycles/sinumerik/old_call.hpp"
 #include "cycles/sinumerik/parameters.hpp"
@@ -59,6 +60,8 @@ constexpr double reversal = 180;
 constexpr const char* bentAdvice =
     "an L-shaped probe (713) touches in a ring in plus direction of the 1st axis only: S_MVAR = 1001, S_MA = 1, S_MD = "
     "0";
+
+constexpr const char* edgeDirections = "thousands of S_MVAR: 1 one direction, 2 two directions";
 
 /// The middle between opposite touches in two directions, and half their distances.
 struct Crosswise {
@@ -362,7 +365,7 @@ void Calibration976::edge() {
     calibration_.setTrigger(axis, -1, deviation - (set / 2 - half));
     finishAtEdge(partAt(start_, -along * set / 2), -along);
   } else {
-    context_.alarm(61307, "thousands of S_MVAR: 1 one direction, 2 two directions");
+    context_.alarm(61307, edgeDirections);
   }
   calibration_.completeAxis(axis, deviation());
 }
@@ -371,11 +374,21 @@ constexpr bool alongOneAxis(int code) {
   return variant::digit(code, 1) == 4 || (variant::digit(code, 1) == 1 && variant::digit(code, 4) > 0);
 }
 
+constexpr bool hasSize(int code) {
+  const bool twoEdges = variant::digit(code, 1) == 4 && variant::digit(code, 4) == 2;
+  return twoEdges || (variant::digit(code, 1) >= 1 && variant::digit(code, 1) <= 3);
+}
+
 constexpr Requirement requirements[] = {
-    {"S_SETV", Need::Positive, variant::units<1, 2, 3>},
+    {"S_SETV", Need::Positive, hasSize},
     {"S_MA", Need::NotZero, variant::units<0, 4>},
     {"S_MA", Need::Within, alongOneAxis, 1, 2},
 };
+
+void combinations(CallCombinations& call) {
+  if (call.digit(1) == static_cast<int>(Body::Edge) && call.digit(4) == 0)
+    call.refuse("S_MVAR", std::string("an edge asks for the ") + edgeDirections);
+}
 
 /// A surface, or a ring whose centre is known (1) or not (8).
 int oldForm(OldCall& call) {
@@ -452,6 +465,10 @@ void run(Context& context, const Arguments&) {
 
 }  // namespace
 
-extern const Entry cycle976 = {.definition = definition, .requirements = requirements, .oldForm = oldForm, .run = run};
+extern const Entry cycle976 = {.definition = definition,
+                               .requirements = requirements,
+                               .combinations = combinations,
+                               .oldForm = oldForm,
+                               .run = run};
 
 }  // namespace probewright::cycles::sinumerik

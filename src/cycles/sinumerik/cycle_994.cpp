@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/truncated.hpp"
 #include "control/sinumerik/measuring_data.hpp"
+#include "cycles/sinumerik/call_combinations.hpp"
 #include "cycles/sinumerik/context.hpp"
 #include "cycles/sinumerik/old_call.hpp"
 #include "cycles/sinumerik/parameters.hpp"
@@ -160,6 +162,20 @@ constexpr Requirement requirements[] = {
     {"S_SZO", Need::Positive, variant::units<2>},
 };
 
+void combinations(CallCombinations& call) {
+  const auto axes = call.number("S_MA");
+  if (!axes) return;
+  const int code = truncated(*axes), measuring = code % 10, passing = code / 100;
+  if (code < 0 || measuring > 3 || code / 10 % 10 != 0 || passing > 3)
+    return call.refuse("S_MA",
+                       "the units of S_MA are the measuring axis, its hundreds the axis in which the probe passes "
+                       "by, 1 to 3 each, its tens 0");
+  const bool passes = call.digit(1) == static_cast<int>(TurnedFeature::Outside) || call.digit(4) != 0;
+  const int in = passing != 0 ? passing : call.digit(4) != 0 ? call.digit(4) : 1;
+  if (passes && measuring == in)
+    call.refuse("S_MA", "the measuring axis and the axis in which the probe passes by are the same");
+}
+
 /// Inside or outside, as the probe stands; what _SZA and _SZO say of the two axes of the plane, said of the measuring
 /// axis and of the one in which the probe passes by. 2 inside is without the zone.
 int oldForm(OldCall& call) {
@@ -237,6 +253,7 @@ void run(Context& context, const Arguments&) {
 extern const Entry cycle994 = {.definition = definition,
                                .title = {.byFeature = true, .sizes = titleSizes},
                                .requirements = requirements,
+                               .combinations = combinations,
                                .oldForm = oldForm,
                                .run = run};
 
