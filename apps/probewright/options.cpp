@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 #include "session/control_family.hpp"
@@ -105,6 +106,12 @@ void addMachineFile(CLI::App& command, std::filesystem::path& file) {
 std::string notNegative(const std::string& text) {
   const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
   return digits && text.size() <= 19 ? std::string() : text + " is not a whole number of 0 or more";
+}
+
+std::string finite(const std::string& text) {
+  double value = 0;
+  const bool read = CLI::detail::lexical_cast(text, value);
+  return read && std::isfinite(value) ? std::string() : text + " is not a number";
 }
 
 void addLanguage(CLI::App& command, std::string& language, const std::string& about) {

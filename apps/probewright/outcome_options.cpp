@@ -12,6 +12,7 @@ Subcommand addCompare(CLI::App& app) {
   compare->add_option("FIRST", arguments->first, "The folder of a run, or its results.json")->required();
   compare->add_option("SECOND", arguments->second, "Another one")->required();
   compare->add_option("--tolerance", arguments->tolerance, "Differences up to this do not count, mm and degrees")
+      ->check(finite)
       ->check(CLI::Range(0.0, 1000.0))
       ->type_name("MM")
       ->capture_default_str();

@@ -68,11 +68,13 @@ Subcommand addConvert(CLI::App& app) {
   convert
       ->add_option("--set-up", arguments->setUp,
                    "SET_UP of the HEIDENHAIN touch probe table (MP6140), mm: no program tells it")
+      ->check(finite)
       ->check(CLI::Range(0.0, 1000.0))
       ->type_name("MM")
       ->capture_default_str();
   convert
       ->add_option("--dist", arguments->dist, "DIST of that table (MP6130), mm: how far a touch looks for the surface")
+      ->check(finite)
       ->check(CLI::Range(0.001, 10000.0))
       ->type_name("MM")
       ->capture_default_str();

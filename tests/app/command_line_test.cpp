@@ -37,6 +37,19 @@ TEST(CommandLine, NamesTheWordItDoesNotKnow) {
       << "any case, but no folder";
 }
 
+TEST(CommandLine, TakesNumbersOnly) {
+  for (const char* value : {"nan", "-nan", "inf", "x"}) {
+    const Answer compared = probewright({"compare", "one", "other", "--tolerance", value});
+    EXPECT_EQ(compared.exit, 2);
+    EXPECT_THAT(compared.errors, HasSubstr("--tolerance: " + std::string(value) + " is not a number"));
+    for (const char* option : {"--set-up", "--dist"}) {
+      const Answer converted = probewright({"convert", program, "no-folder/x.mpf", option, value});
+      EXPECT_EQ(converted.exit, 2);
+      EXPECT_THAT(converted.errors, HasSubstr(option + (": " + std::string(value)) + " is not a number"));
+    }
+  }
+}
+
 TEST(CommandLine, RefusesUnknownWords) {
   const Answer control = probewright({"run", program, "--setup", setup, "--control", "TNC7"});
   EXPECT_EQ(control.exit, 2);
