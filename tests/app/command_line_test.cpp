@@ -38,7 +38,7 @@ TEST(CommandLine, NamesTheWordItDoesNotKnow) {
 }
 
 TEST(CommandLine, TakesNumbersOnly) {
-  for (const char* value : {"nan", "-nan", "inf", "x"}) {
+  for (const char* value : {"nan", "inf", "x"}) {
     const Answer compared = probewright({"compare", "one", "other", "--tolerance", value});
     EXPECT_EQ(compared.exit, 2);
     EXPECT_THAT(compared.errors, HasSubstr("--tolerance: " + std::string(value) + " is not a number"));

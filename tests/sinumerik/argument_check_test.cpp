@@ -153,7 +153,7 @@ TEST(SinumerikArguments, ValuesThatNoRunTakesAreNamed) {
   EXPECT_EQ(refused("CYCLE976(4,1,0,,1,1,8,4)"), "S_MVAR ") << "an edge in one direction or in both";
   EXPECT_EQ(refused("CYCLE976(1004,1,0,,1,1,8,4)"), "");
   EXPECT_EQ(refused("CYCLE976(2004,1,0,,1,1,8,4)"), "S_SETV ") << "how far the edges are apart";
-  for (const char* axes : {"-1", "4", "12", "401", "101", "1"})
+  for (const char* axes : {"-1", "4", "12", "100", "401", "101", "1"})
     EXPECT_EQ(refused(std::string("CYCLE994(2,,,1,40,") + axes + ",,20,8,1)"), "S_MA ") << axes;
   for (const char* axes : {"2", "102", "201", "302"})
     EXPECT_EQ(refused(std::string("CYCLE994(2,,,1,40,") + axes + ",,20,8,1)"), "") << axes;

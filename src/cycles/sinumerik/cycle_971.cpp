@@ -200,7 +200,7 @@ void combinations(CallCombinations& call) {
   const auto axes = call.number("S_MA"), way = call.number("S_MD");
   const bool above = axes && truncated(std::abs(*axes)) % 10 == 3 && call.digit(6) != 1;
   if (axes && *axes != 0 && truncated(*axes) % 10 == 0 && call.digit(6) != 1)
-    call.refuse("S_MA", "the units of S_MA name no measuring axis");
+    call.refuse("S_MA", "S_MA names no measuring axis in its units");
   if (axes && truncated(*axes) % 10 == truncated(*axes) / 100 && *axes != 0)
     call.refuse("S_MA", "the offset axis cannot be the measuring axis");
   if (above && way && *way == 1) call.refuse("S_MD", "the 3rd axis is touched from above: minus, 2, or 0");

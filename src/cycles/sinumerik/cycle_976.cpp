@@ -387,7 +387,7 @@ constexpr Requirement requirements[] = {
 
 void combinations(CallCombinations& call) {
   if (call.digit(1) == static_cast<int>(Body::Edge) && call.digit(4) == 0)
-    call.refuse("S_MVAR", std::string("an edge asks for the ") + edgeDirections);
+    call.refuse("S_MVAR", std::string("S_MVAR does not say how the edge is touched: ") + edgeDirections);
 }
 
 /// A surface, or a ring whose centre is known (1) or not (8).

@@ -166,14 +166,13 @@ void combinations(CallCombinations& call) {
   const auto axes = call.number("S_MA");
   if (!axes) return;
   const int code = truncated(*axes), measuring = code % 10, passing = code / 100;
-  if (code < 0 || measuring > 3 || code / 10 % 10 != 0 || passing > 3)
+  if (code < 0 || (code != 0 && measuring == 0) || measuring > 3 || code / 10 % 10 != 0 || passing > 3)
     return call.refuse("S_MA",
-                       "the units of S_MA are the measuring axis, its hundreds the axis in which the probe passes "
-                       "by, 1 to 3 each, its tens 0");
+                       "S_MA has the measuring axis in its units, the axis in which the probe passes by in its "
+                       "hundreds, 1 to 3 each, and 0 in its tens");
   const bool passes = call.digit(1) == static_cast<int>(TurnedFeature::Outside) || call.digit(4) != 0;
   const int in = passing != 0 ? passing : call.digit(4) != 0 ? call.digit(4) : 1;
-  if (passes && measuring == in)
-    call.refuse("S_MA", "the measuring axis and the axis in which the probe passes by are the same");
+  if (passes && measuring == in) call.refuse("S_MA", "S_MA measures in the axis in which the probe passes by");
 }
 
 /// Inside or outside, as the probe stands; what _SZA and _SZO say of the two axes of the plane, said of the measuring
