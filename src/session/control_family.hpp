@@ -76,6 +76,8 @@ struct NamedItem {
 /// What a control has that programs name.
 struct Inventory {
   std::function<bool(const NamedItem&)> hasTool;
+  /// Whether the magazine of the virtual machine holds a tool that the control has. Empty: not known.
+  std::function<bool(const NamedItem&)> holdsTool;
   std::function<bool(const NamedItem&)> hasPreset;
   /// A file that the run may read by this name: beside the program or among the tables of the setup. Empty: not known.
   std::function<bool(const std::string&)> hasFile;

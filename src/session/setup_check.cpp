@@ -103,6 +103,10 @@ private:
     if (const auto step = named(call.index); inventory_.toolSteps && step && tool->name.empty())
       tool->number += step->number / (step->number < 10 ? 10 : 100);
     needTool(*tool);
+    if (!inventory_.holdsTool || !inventory_.hasTool(*tool) || inventory_.holdsTool(*tool)) return;
+    report(*tool, fmt::format("the control has tool {}, the virtual machine of the setup does not", shown(*tool)),
+           "add it to the setup as [[tool]]; without it a run stops here", "tool");
+    found_.back().severity = Severity::Warning;  // a real machine may have it
   }
   bool lacksAxis(std::string_view name) const {
     return !axes_.empty() && std::ranges::find(axes_, name) == axes_.end();
@@ -304,6 +308,13 @@ private:
 };
 
 }  // namespace
+
+bool holdsTool(const std::vector<control::BelievedTool>& tools, int number, std::string_view name) {
+  return std::ranges::any_of(tools, [&](const control::BelievedTool& tool) {
+    const bool named = !name.empty() && tool.name == name;
+    return named || (tool.number == number && (name.empty() || tool.name.empty()));
+  });
+}
 
 Diagnostics checkAgainstSetup(Program& program, const Inventory& inventory, std::bitset<10> skipLevels,
                               const machine::MachineDescription* machine) {

@@ -3,9 +3,11 @@
 #include <bitset>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/diagnostic.hpp"
+#include "control/beliefs.hpp"
 #include "language/program.hpp"
 #include "machine/description.hpp"
 #include "session/control_family.hpp"
@@ -17,6 +19,10 @@ namespace probewright::session {
 /// Only what the text says; names and numbers that the run computes are left to it. `machine`: null if it is not known.
 Diagnostics checkAgainstSetup(language::Program& program, const Inventory& inventory, std::bitset<10> skipLevels = {},
                               const machine::MachineDescription* machine = nullptr);
+
+/// Whether the virtual machine of a setup with these tools finds the one that a control calls so: by its name, else by
+/// its number, where setup or control have no name for it.
+bool holdsTool(const std::vector<control::BelievedTool>& tools, int number, std::string_view name);
 
 /// "the setup has 1 PROBE, 2": the first of them.
 class Listing {

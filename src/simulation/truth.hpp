@@ -129,7 +129,8 @@ struct Truth {
   std::vector<MachineBody> bodies;
   /// Each has a solid of the same name and of role ToolProbe in `solids`, which is drawn and stops what runs into it.
   std::vector<TrueToolProbe> toolProbes;
-  std::vector<TrueTool> tools;  ///< found by name where a program names one, else by number; 0 is the empty spindle
+  /// Found by the control's name, else by number, where control or machine have no name for it; 0 is the empty spindle.
+  std::vector<TrueTool> tools;
   machine::AxisPositions start;
   /// Degrees between the positions of a rotary axis with a Hirth coupling, from 0 on, by axis index; 0: it stands
   /// anywhere.

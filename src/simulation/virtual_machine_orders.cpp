@@ -24,9 +24,11 @@ namespace {
 
 constexpr double orientationSeconds = 1;
 
-std::string missingTool(const machine::ToolOrder& order) {
-  return order.name.empty() ? fmt::format("the magazine of this machine holds no tool {}", order.number)
-                            : fmt::format("the magazine of this machine holds no tool \"{}\"", order.name);
+std::string missingTool(const machine::ToolOrder& order, const std::vector<TrueTool>& tools) {
+  if (order.name.empty()) return fmt::format("the magazine of this machine holds no tool {}", order.number);
+  const auto other = std::ranges::find(tools, order.number, &TrueTool::number);
+  return fmt::format("the magazine of this machine holds no tool \"{}\"{}", order.name,
+                     other == tools.end() ? "" : fmt::format("; its tool {} is \"{}\"", other->number, other->name));
 }
 
 }  // namespace
@@ -76,10 +78,14 @@ FunctionResult VirtualMachine::function(int number) {
 }
 
 std::optional<const TrueTool*> VirtualMachine::findTool(const machine::ToolOrder& order) const {
-  const auto found = std::find_if(truth_.tools.begin(), truth_.tools.end(), [&](const TrueTool& tool) {
-    return order.name.empty() ? tool.number == order.number : tool.name == order.name;
-  });
-  if (found != truth_.tools.end()) return &*found;
+  const auto& tools = truth_.tools;
+  auto found = order.name.empty() ? tools.end() : std::ranges::find(tools, order.name, &TrueTool::name);
+  if (found == tools.end()) {
+    found = std::ranges::find_if(tools, [&](const TrueTool& tool) {
+      return tool.number == order.number && (order.name.empty() || tool.name.empty());
+    });
+  }
+  if (found != tools.end()) return &*found;
   if (order.number == 0 && order.name.empty()) return nullptr;
   return std::nullopt;
 }
@@ -99,7 +105,7 @@ ToolChangeResult VirtualMachine::load(const TrueTool* tool) {
 
 ToolChangeResult VirtualMachine::insertTool(const machine::ToolOrder& order) {
   const auto tool = findTool(order);
-  if (!tool) return {ToolChangeEnd::Missing, missingTool(order)};
+  if (!tool) return {ToolChangeEnd::Missing, missingTool(order, truth_.tools)};
   ToolChangeResult result = load(*tool);
   // What bodies of the machine touch here is left out until they have come apart.
   const bool byBody = result.end == ToolChangeEnd::Collision && !overlap();
@@ -109,7 +115,7 @@ ToolChangeResult VirtualMachine::insertTool(const machine::ToolOrder& order) {
 ToolChangeResult VirtualMachine::changeTool(const machine::ToolOrder& order) {
   if (stop_.stop_requested()) return {ToolChangeEnd::Cancelled, stoppedText};
   const auto tool = findTool(order);
-  if (!tool) return {ToolChangeEnd::Missing, missingTool(order)};
+  if (!tool) return {ToolChangeEnd::Missing, missingTool(order, truth_.tools)};
   if (*tool == tool_) return {};
   if (deflection_ || toolContact_) return {ToolChangeEnd::ProbeSignal, stillDeflected()};
   turn(carrying(), Rotation::None, 0);

@@ -45,6 +45,43 @@ TEST(RunAfterRun, InspectsWithThePresetThatTheRunBeforeHasSet) {
   EXPECT_EQ(run("again", inspect, "second", "second").exit, 0);
 }
 
+TEST(RunAfterRun, FindsToolsOfATableByNumberWhereTheSetupHasNoName) {
+  const Folder folder;
+  std::filesystem::create_directory(folder / "T");
+  folder.file("T/TOOL.T",
+              "BEGIN TOOL.T MM\nT     NAME                L           R           TP_NO\n"
+              "0     NULLWERKZEUG        +0.0000     +0.0000\n"
+              "1     TS460               +100.0000   +3.0000     1\n[END]\n");
+  const auto run = [&](const std::string& name, const std::string& program, const std::string& setup) {
+    return probewright({"run", folder.file(name + ".h", program), "--setup", folder.file(name + ".toml", setup),
+                        "--out", (folder / name).string()});
+  };
+  std::string unnamed = blockSetup();
+  unnamed.insert(unnamed.find("[part]"), "tables = \"T\"\n");
+  unnamed.erase(unnamed.find("name = \"PROBE\"\n"), 15);
+  const std::string inspect = blockProgram("+20.01", "+19.99");
+  const Answer found = run("unnamed", inspect, unnamed);
+  EXPECT_EQ(found.exit, 0) << found.errors;
+  // Every tool table has a row 0, with a name on most machines: the empty spindle all the same.
+  std::string emptied = inspect;
+  emptied.insert(emptied.find("1 TOOL CALL 1 Z"), "1 TOOL CALL 1 Z\n1 TOOL CALL 0 Z\n");
+  const Answer empty = run("empty", emptied, unnamed);
+  EXPECT_EQ(empty.exit, 0) << empty.errors;
+  // Two names that contradict each other are not taken for one tool.
+  std::string other = blockSetup();
+  other.insert(other.find("[part]"), "tables = \"T\"\n");
+  const Answer refused = run("other", inspect, other);
+  EXPECT_EQ(refused.exit, 3);
+  const auto checked = [&](const std::string& name) {
+    return probewright({"check", (folder / (name + ".h")).string(), "--setup", (folder / (name + ".toml")).string()});
+  };
+  EXPECT_THAT(checked("other").errors,
+              ::testing::HasSubstr("warning: the control has tool 1, the virtual machine of the setup does not"));
+  for (const char* name : {"unnamed", "empty"})
+    EXPECT_EQ(checked(name).errors, "") << name;
+  EXPECT_THAT(refused.errors, ::testing::HasSubstr("holds no tool \"TS460\"; its tool 1 is \"PROBE\""));
+}
+
 TEST(RunAfterRun, TakesTheRowsOfATableInInches) {
   const Folder folder;
   std::filesystem::create_directory(folder / "T");

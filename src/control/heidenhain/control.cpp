@@ -161,7 +161,8 @@ void Control::callTool(const std::string& called, std::optional<char> axis, doub
   next.probeRow = probe == "0" || probe == "-" ? "" : probe;
   if (!tool.called || next.row != tool.row) {
     const bool byHand = !isTNC640() && row == "0" && axis && handProbe.number != 0;
-    channel.changeTool(byHand ? handProbe : machine::ToolOrder{next.number, next.name});
+    // Tool 0 is an empty spindle, whatever its row is named.
+    channel.changeTool(byHand ? handProbe : machine::ToolOrder{next.number, next.number == 0 ? "" : next.name});
     panel.message(EventKind::Tool,
                   byHand ? fmt::format("Tool 0: touch probe {} put in by hand, axis {}", handProbe.name, next.axis)
                          : fmt::format("Tool {}{}{}", row, next.name.empty() ? "" : " ", next.name),

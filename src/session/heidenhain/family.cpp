@@ -71,6 +71,12 @@ Inventory inventoryOf(const control::Beliefs& beliefs, ControlKind kind, Diagnos
     if (!tool.name.empty()) return control::heidenhain::findToolNamed(tables->tools, tool.name).has_value();
     return tool.number == 0 || tables->tools.hasRow(formatShortest(tool.number));
   };
+  inventory.holdsTool = [tables, owned = beliefs.tools](const NamedItem& tool) {
+    const auto row = tool.name.empty() ? formatShortest(tool.number)
+                                       : control::heidenhain::findToolNamed(tables->tools, tool.name).value_or("");
+    const auto number = static_cast<int>(parseDecimal(row).value_or(0));
+    return owned.empty() || number == 0 || holdsTool(owned, number, tables->tools.text(row, "NAME"));
+  };
   inventory.hasPreset = [tables, documented](const NamedItem& row) {
     if (row.name.empty()) return tables->presets.hasRow(formatShortest(row.number));
     for (const std::string& key : tables->presets.table().keys()) {

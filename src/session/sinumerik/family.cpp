@@ -94,6 +94,12 @@ Inventory inventoryOf(const control::Beliefs& beliefs, ControlKind, Diagnostics&
     if (!tool.name.empty()) return tool.name == "0" || toolNamed(data->store, tool.name).has_value();
     return tool.number == 0 || toolEdge(data->store, static_cast<int>(std::lround(tool.number)), 1).has_value();
   };
+  inventory.holdsTool = [data, owned = beliefs.tools](const NamedItem& tool) {
+    using namespace control::sinumerik;
+    const int number =
+        tool.name.empty() ? static_cast<int>(std::lround(tool.number)) : toolNamed(data->store, tool.name).value_or(0);
+    return owned.empty() || number == 0 || holdsTool(owned, number, toolName(data->store, number));
+  };
   inventory.hasPreset = [](const NamedItem&) { return true; };
   inventory.correctedTool = [](std::string_view name, const auto& number) -> std::optional<std::uint32_t> {
     const cycles::sinumerik::Entry* entry = cycles::sinumerik::findEntry(name);
