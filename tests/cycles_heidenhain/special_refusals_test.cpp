@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "control/heidenhain/deflection_table.hpp"
+#include "control/heidenhain/probe_table.hpp"
 #include "cycles_heidenhain/table_folder.hpp"
 #include "cycles_heidenhain/worlds.hpp"
 
@@ -81,6 +82,29 @@ TEST(CalibrationRefusals, AToolThatIsNoTouchProbe) {
   folder.put("TOOL.T", tools);
   for (const std::string& cycle : {ring(), stud(), sphere(), length()}) {
     expectRefused(bench.run(cycle), "Touch probe not defined", "row 7");
+  }
+}
+
+TEST(TouchProbeRefusals, ARowThatNoProbeCanMoveBy) {
+  struct Wrong {
+    const char* column;
+    double value;
+    const char* shown;
+  };
+  for (const Wrong& wrong : {Wrong{"F", 0, "F of touch probe 1 cannot be 0"},
+                             {"F", -300, "F of touch probe 1 cannot be -300"},
+                             {"FMAX", 0, "FMAX of touch probe 1 cannot be 0"},
+                             {"DIST", 0, "DIST of touch probe 1 cannot be 0"},
+                             {"DIST", -1, "DIST of touch probe 1 cannot be -1"},
+                             {"SET_UP", -5, "SET_UP of touch probe 1 cannot be -5"}}) {
+    Bench bench = standards();
+    const TableFolder folder(bench);
+    hh::TypedTable probes = hh::defaultProbeTable(newer);
+    EXPECT_TRUE(probes.setNumber("1", hh::NumberColumn::named(wrong.column), wrong.value));
+    folder.put("TCHPROBE.TP", probes);
+    const Ran ran = bench.run(ring());
+    expectRefused(ran, "Touch probe not defined", wrong.shown);
+    EXPECT_TRUE(ran.cycle().touches.empty());
   }
 }
 

@@ -222,6 +222,19 @@ void applyOverrides(probing::HeidenhainProbe& probe, const control::heidenhain::
   probe.track = overrides.track.value_or(probe.track);
 }
 
+/// Feeds and ways with which a probe can be moved: what the editor of the control takes for them.
+void requireSound(const control::heidenhain::TouchProbe& probe, const std::string& row) {
+  const auto refuse = [&row](const char* column, double value) {
+    throw Alarm("Touch probe not defined",
+                fmt::format("{} of touch probe {} cannot be {}", column, row, formatShortest(value)),
+                "correct the row in TCHPROBE.TP");
+  };
+  if (!(probe.feed > 0)) refuse("F", probe.feed);
+  if (!(probe.rapid > 0)) refuse("FMAX", probe.rapid);
+  if (!(probe.maximumTravel > 0)) refuse("DIST", probe.maximumTravel);
+  if (!(probe.setUpClearance >= 0)) refuse("SET_UP", probe.setUpClearance);
+}
+
 /// What the table named in DR2TABLE says, if there is an entry.
 probing::DirectionalRadius directionsOf(const Control& control) {
   const std::string entry = control.tables.tools.text(control.tool.row, "DR2TABLE");
@@ -304,6 +317,7 @@ probing::HeidenhainProbe activeProbe(const Control& control, Calibrated calibrat
                 fmt::format("TCHPROBE.TP has no row {}, which TP_NO of tool {} names", tool.probeRow, tool.row),
                 "add the row or correct TP_NO");
   }
+  requireSound(*row, tool.probeRow);
   probe.tipOffset = {row->centreOffset1, row->centreOffset2};
   probe.calibrationAngle = row->calibrationAngle;
   probe.probingFeed = std::min(row->feed, parameters.maxTouchFeed);
