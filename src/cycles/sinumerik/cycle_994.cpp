@@ -233,12 +233,13 @@ void run(Context& context, const Arguments&) {
   if (!(set > 0)) context.alarm(61319, "S_SETV, the set diameter, must be greater than 0");
   const double setRadius = set / count;
   const bool inside = feature == TurnedFeature::Inside;
+  // The call is looked at before the place of the probe.
+  OppositePoints points(context, feature, axis, setRadius, count);
   const double start = context.prober().position()[axis];
   if (inside ? start >= setRadius : start <= setRadius) {
     context.alarm(61332, "the probe is not in front of the surface, above the turning centre");
   }
 
-  OppositePoints points(context, feature, axis, setRadius, count);
   const double above = points.touch(1);
   points.cross();
   const double below = points.touch(-1);
