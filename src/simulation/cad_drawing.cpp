@@ -177,7 +177,8 @@ void appendFeatureEdges(DrawingMesh& drawing, const TopoDS_Shape& shape) {
     const TopoDS_Edge& edge = TopoDS::Edge(facesOfEdges.FindKey(i));
     const TopTools_ListOfShape& faces = facesOfEdges(i);
     const bool seam = faces.Extent() > 1 && faces.First().IsSame(faces.Last());
-    const bool smooth = BRep_Tool::MaxContinuity(edge) > GeomAbs_C0;
+    // As between the pieces of one surface. A fillet, which begins at a tangent only, is seen.
+    const bool smooth = BRep_Tool::MaxContinuity(edge) >= GeomAbs_C1;
     if (seam || smooth || BRep_Tool::Degenerated(edge)) continue;
     const GCPnts_TangentialDeflection points(BRepAdaptor_Curve(edge), kAngularDeflection, kDeflection);
     std::vector<float> line;

@@ -205,6 +205,26 @@ TEST(DrawingMesh, ShowsACadSolidWithOutwardNormalsAndItsEdges) {
   }
 }
 
+TEST(DrawingMesh, ShowsWhereFilletsBeginAndEnd) {
+  SolidFeature block, fillet;
+  block.size = {40, 30, 20};
+  fillet.shape = FeatureShape::Fillet;
+  fillet.edgeSize = 3;
+  fillet.edges = {{20, 0, 20}};
+  const auto solid = buildSolid({{block, fillet}});
+  ASSERT_TRUE(solid) << format(solid.error());
+  const DrawingMesh drawing = drawingMesh(**solid);
+  EXPECT_EQ(drawing.featureEdges.size(), 15U) << "an edge became two lines and two arcs";
+  const auto isAlong = [](const std::vector<float>& line, double x, double z) {
+    for (std::size_t i = 0; i + 2 < line.size(); i += 3)
+      if (std::abs(line[i] - x) > 1e-4 || std::abs(line[i + 2] - z) > 1e-4) return false;
+    return true;
+  };
+  for (const auto& [x, z] : {std::pair(17.0, 20.0), {20.0, 17.0}})
+    EXPECT_TRUE(std::ranges::any_of(drawing.featureEdges, [&](const auto& line) { return isAlong(line, x, z); }))
+        << "at X" << x << " Z" << z;
+}
+
 TEST(DrawingMesh, StaysNearFacesThatAreBentBothWays) {
   SolidFeature feature;
   feature.diameter = 60;
