@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <fstream>
 #include <random>
 
 #include "machine/rotary_solver.hpp"
@@ -199,6 +201,45 @@ TEST(Swivel, DirectionPicksThePosture) {
     EXPECT_NEAR(std::abs(a), 20, 1e-9) << name;
     EXPECT_NEAR(std::abs(b), 20, 1e-9) << name;
     EXPECT_LT(a, b) << name;
+  }
+}
+
+/// The axis that tilts need not be the first one of the machine, nor read 0 where the tool stands along the other: the
+/// two postures lie on both sides of there, as far as the plane leans against the other axis, also where that turns by
+/// the same amount in both.
+TEST(Swivel, DirectionPicksByTheAxisThatTiltsWhereverItStandsInTheList) {
+  const auto axis = [](const char* name, const char* kind, double from, double to) {
+    return fmt::format("[[axis]]\nname = \"{}\"\nkind = \"{}\"\nminimum = {}\nmaximum = {}\n", name, kind, from, to);
+  };
+  const auto element = [](const char* chain, const char* name, const Vector3& along) {
+    return fmt::format("[[{}_chain]]\naxis = \"{}\"\ndirection = [{:.17g}, {:.17g}, {:.17g}]\n", chain, name, along.x(),
+                       along.y(), along.z());
+  };
+  for (const double symmetry : {0.0, 30.0}) {
+    for (const bool tiltsFirst : {true, false}) {
+      const std::string a = axis("A", "rotary", -120, 120), c = axis("C", "rotary", -360, 360);
+      const Vector3 turning = -(rotation(Vector3::UnitX(), symmetry) * Vector3::UnitZ());
+      const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "tilts.toml";
+      std::ofstream(file) << "name = \"M\"\n"
+                          << axis("X", "linear", -500, 500) << axis("Y", "linear", -500, 500)
+                          << axis("Z", "linear", -500, 500) << (tiltsFirst ? a + c : c + a)
+                          << element("table", "A", -Vector3::UnitX()) << element("table", "C", turning)
+                          << element("spindle", "X", Vector3::UnitX()) << element("spindle", "Y", Vector3::UnitY())
+                          << element("spindle", "Z", Vector3::UnitZ());
+      for (const auto& [plane, about] : {std::pair("20,0", Vector3(Vector3::UnitX())), {"0,20", Vector3::UnitY()}}) {
+        SCOPED_TRACE(fmt::format("symmetry {}, A first {}, plane {}", symmetry, tiltsFirst, plane));
+        const Vector3 normal = rotation(about, 20) * Vector3::UnitZ();
+        const double lean = degreesFromRadians(std::acos(-turning.dot(normal)));
+        const auto standsAt = [&](int direction) {
+          World world(file.string());
+          const std::size_t tilting = *world.machine.description().axisIndex("A");
+          world.run(fmt::format("CYCLE800(0,\"\",0,57,0,0,0,{},0,0,0,0,{})\n", plane, direction));
+          return world.machine.position()[tilting];
+        };
+        EXPECT_NEAR(standsAt(-1), symmetry - lean, 1e-6);
+        EXPECT_NEAR(standsAt(1), symmetry + lean, 1e-6);
+      }
+    }
   }
 }
 

@@ -254,15 +254,11 @@ void swivel(Control& control, const SwivelCall& call) {
     for (const AxisPositions& exact : toolPostures(machine, channel.rotaryOffset, channel.axes(), normal))
       if (const auto stands = travel.reached(exact)) solutions.push_back(*stands);
     if (solutions.empty() && !axes.empty()) throw Alarm("62201", unreachable, travelAdvice);
-    // _DIR picks between the two postures by the axis that tilts: the first whose value differs between them.
-    if (solutions.size() > 1 && call.direction != 0) {
-      for (const std::size_t axis : axes) {
-        const double a = solutions[0][axis], b = solutions[1][axis];
-        if (std::abs(std::abs(a) - std::abs(b)) > 1e-4 || std::abs(a - b) < 1e-4) continue;
-        const bool larger = call.direction > 0;
-        if ((b > a) == larger) std::swap(solutions[0], solutions[1]);
-        break;
-      }
+    // _DIR picks between the two postures by the axis that tilts.
+    const auto tilting = machine::tiltingAxis(machine, Vector3::UnitZ());
+    if (solutions.size() > 1 && tilting && call.direction != 0) {
+      const bool rises = solutions[1][tilting->axis] > solutions[0][tilting->axis];
+      if (rises == (call.direction > 0)) std::swap(solutions[0], solutions[1]);
     }
     if (!solutions.empty()) {
       target = solutions.front();
