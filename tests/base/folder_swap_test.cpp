@@ -58,6 +58,30 @@ TEST(FolderLock, DoesWhatWasDecidedWithinTheFolderAlone) {
   fs::remove_all(parent);
 }
 
+/// A run was killed between the step that made its set valid and the end. The next one makes plain files of that run's
+/// links; links of others stay what they are, also those whose names the set has.
+TEST(FolderLock, LeavesLinksOfOthersAsTheyAre) {
+  std::string pattern = (fs::path(::testing::TempDir()) / "probewright-swap-XXXXXX").string();
+  ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
+  const fs::path parent = pattern, folder = parent / "out", work = folder / ".probewright-swap";
+  fs::create_directories(work / "new");
+  ASSERT_TRUE(writeFileAtomically(parent / "elsewhere.txt", "mine"));
+  fs::create_symlink(parent / "elsewhere.txt", folder / "mine.txt");
+  fs::create_symlink(parent / "elsewhere.txt", folder / "other.txt");
+  for (const char* name : {"ours.txt", "mine.txt"})
+    ASSERT_TRUE(writeFileAtomically(work / "new" / name, "ours"));
+  fs::create_symlink(".probewright-swap/current/ours.txt", folder / "ours.txt");
+  fs::create_symlink("new", work / "current");
+  {
+    const auto lock = FolderLock::take(folder, {}, [](const fs::path&) { return false; });
+    ASSERT_TRUE(lock);
+  }
+  EXPECT_TRUE(fs::exists(folder / "ours.txt") && !fs::is_symlink(folder / "ours.txt"));
+  for (const char* name : {"mine.txt", "other.txt"})
+    EXPECT_EQ(fs::read_symlink(folder / name), parent / "elsewhere.txt") << name;
+  fs::remove_all(parent);
+}
+
 /// Whoever has to wait is told so once, and may give up.
 TEST(FolderLock, WaitsForAnotherRunUntilItIsToStop) {
   std::string pattern = (fs::path(::testing::TempDir()) / "probewright-swap-XXXXXX").string();

@@ -202,5 +202,17 @@ TEST(Png, RefusesWhatIsNone) {
   }
 }
 
+/// As many pixels as are allowed in one direction, and one more: each direction counts for itself.
+TEST(Png, RefusesPicturesThatAreTooWideOrTooHigh) {
+  for (const bool wide : {true, false}) {
+    for (const int more : {0, 1}) {
+      const std::size_t pixels = largestPicture + more;
+      const int across = wide ? largestPicture + more : 1, down = wide ? 1 : largestPicture + more;
+      const auto read = fromPng(toPng({across, down, std::vector<std::uint8_t>(pixels, 90)}), "a.png");
+      EXPECT_EQ(read.has_value(), more == 0) << across << " x " << down;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace probewright::vision

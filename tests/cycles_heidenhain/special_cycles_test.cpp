@@ -213,6 +213,8 @@ TEST(Cycle3, MeasuresAtAnyAngleOfAnyPlane) {
     for (int i = 0; i < 3; ++i)
       EXPECT_NEAR(ran.q(10 + i), expected[i], 2e-5);
     EXPECT_EQ(ran.q(13), 1);
+    ASSERT_EQ(ran.touches(), 1U);
+    EXPECT_LT((ran.cycle().touches[0].target - (ball + 40 * moves)).norm(), 1e-3) << "the ball at the end of the way";
   }
 }
 

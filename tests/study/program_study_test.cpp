@@ -205,6 +205,31 @@ TEST(ProgramStudy, GoesOnWhereItWasBrokenOff) {
   EXPECT_FALSE(whyNotTrials(folder.path() / "trials.csv"));
 }
 
+/// A trial is a line, whatever stopped it: other programs read the file line by line.
+TEST(ProgramStudy, WritesATrialInOneLine) {
+  const TestFolder folder;
+  TrialWriter writer(folder.path() / "trials.csv", "mark", {});
+  const std::vector<std::string> reasons = {"first\nsecond", "first\rsecond", "first\r\nsecond", "with, \"comma\""};
+  std::vector<Draw> draws;
+  std::vector<Outcome> outcomes;
+  for (const std::string& why : reasons) {
+    draws.push_back({draws.size(), {}, {}});
+    outcomes.push_back({TrialEnd::Alarm, why, {}});
+  }
+  ASSERT_TRUE(writer.write(draws, outcomes));
+  std::ifstream file(folder.path() / "trials.csv", std::ios::binary);
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  EXPECT_EQ(std::ranges::count(text, '\n'), 2 + 4) << "the mark, the heading, and a line a trial:\n" << text;
+  EXPECT_EQ(std::ranges::count(text, '\r'), 0) << text;
+  auto kept = TrialReader::open(folder.path() / "trials.csv", "mark");
+  ASSERT_TRUE(kept);
+  for (const char* why : {"first second", "first second", "first  second", "with, \"comma\""}) {
+    const auto trial = kept->next();
+    ASSERT_TRUE(trial) << why;
+    EXPECT_EQ(trial->outcome.why, why);
+  }
+}
+
 /// Where the part lies varies by a millimetre; the machine knows where, and what is left is the scatter.
 TEST(ProgramStudy, TakesTrueValuesFromTheVirtualMachine) {
   const std::string aside = "[[source]]\nquantity = \"part.pose.x\"\ndistribution = \"uniform\"\nhalf_width = 1\n";
