@@ -166,10 +166,10 @@ std::optional<double> MovedTouches::uncertaintyOf(const control::ResultRecord& r
     double linear = 0;
     for (std::size_t i = 0; i < slopes.size(); ++i)
       linear += slopes[i] * errors_[set][i];
+    // What the square of a moved distance has more than that of the linear one, whose sign does not matter.
     for (const std::size_t opposite : {std::size_t{0}, std::size_t{1}}) {
-      const double straight = opposite == 0 ? linear : -linear;
-      const double rest = distance(all_[2 * set + opposite], result) - straight;
-      variance += (2 * straight * rest + rest * rest) / static_cast<double>(all_.size());
+      const double moved = distance(all_[2 * set + opposite], result);
+      variance += (moved - linear) * (moved + linear) / static_cast<double>(all_.size());
     }
   }
   return std::sqrt(std::max(variance, 0.0));

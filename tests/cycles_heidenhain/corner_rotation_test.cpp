@@ -1,4 +1,5 @@
 #include "cycles_heidenhain/table_folder.hpp"
+#include "cycles_heidenhain/tilted_place.hpp"
 #include "cycles_heidenhain/worlds.hpp"
 
 /// The basic rotation of cycles 414 and 415 where the corner goes into a datum table, and under a rotation by cycle 10.
@@ -8,6 +9,26 @@ namespace {
 constexpr double exact = 1e-6;
 const Vector3 origin(10, -20, -400);
 
+/// A corner of a block that lies at `lying`, where the active coordinates lie at `active`: with a basic rotation along
+/// its first side, and the wishes 1 and -2.
+Words cornerWords(const Pose& active, const Pose& lying) {
+  const auto drawn = [&](double x, double y) { return Vector3(active.inverse() * (lying * Vector3(x, y, 0))); };
+  const Vector3 first = drawn(15, 0), third = drawn(0, 15);
+  return {{263, written(first.x(), 1)},
+          {264, written(first.y(), 1)},
+          {326, 30},
+          {296, written(third.x(), 1)},
+          {297, written(third.y(), 1)},
+          {327, 30},
+          {261, -8},
+          {320, 5},
+          {260, 20},
+          {301, 1},
+          {304, 1},
+          {331, 1},
+          {332, -2}};
+}
+
 /// A block whose corner lies at (30, 20) of a preset with a basic rotation of 12 degrees, skewed by 2 degrees more.
 struct SkewedCorner {
   explicit SkewedCorner(ControlKind kind) : bench(kind) {
@@ -15,24 +36,7 @@ struct SkewedCorner {
     bench.part(simulation::Box({0, 0, -40}, {90, 80, 0}), lying);
   }
   /// `turn`: how far the active coordinates are turned from the preset.
-  Words words(double turn = 0) const {
-    const Pose active = pose(origin, {0, 0, 12 + turn});
-    const auto drawn = [&](double x, double y) { return Vector3(active.inverse() * (lying * Vector3(x, y, 0))); };
-    const Vector3 first = drawn(15, 0), third = drawn(0, 15);
-    return {{263, written(first.x(), 1)},
-            {264, written(first.y(), 1)},
-            {326, 30},
-            {296, written(third.x(), 1)},
-            {297, written(third.y(), 1)},
-            {327, 30},
-            {261, -8},
-            {320, 5},
-            {260, 20},
-            {301, 1},
-            {304, 1},
-            {331, 1},
-            {332, -2}};
-  }
+  Words words(double turn = 0) const { return cornerWords(pose(origin, {0, 0, 12 + turn}), lying); }
   Pose lying = pose(origin, {0, 0, 12}) * pose({30, 20, 0}, {0, 0, 2});
   Bench bench;
 };
@@ -78,6 +82,26 @@ TEST(Cycle414, TakesARotationByCycle10IntoThePreset) {
       EXPECT_LT((ran.preset().linear() - world.lying.linear()).norm(), 1e-9) << "row " << row;
       EXPECT_LT((ran.seen(world.lying.translation()) - Vector3(1, -2, 0)).norm(), exact);
     }
+  }
+}
+
+/// The plane of a rotation by cycle 10 and a tilt upon it stays where it is; the new preset turns it within itself, so
+/// that without cycle 10 its main axis lies along the side.
+TEST(Cycle414, TurnsATiltedPlaneWithinItselfWhereCycle10Ends) {
+  Dice dice(41410);
+  const std::string turn = "CYCL DEF 10.0 ROTATION\nCYCL DEF 10.1 ROT+25\n";
+  for (const int row : {0, 3}) {
+    TiltedPlace place(dice, ControlKind::TNC640);
+    Pose input = place.preset * pose(Vector3::Zero(), {0, 0, 25});
+    input.linear() *= place.tilt;
+    const Pose lying = input * pose({-20, -10, 0}, {0, 0, 2});
+    place.bench.part(simulation::Box({0, 0, -40}, {90, 80, 0}), lying);
+    const std::string after = row == 0 ? "" : "CYCL DEF 10.0 ROTATION\nCYCL DEF 10.1 ROT+0\n" + transferInto(row).after;
+    const Ran ran = place.bench.run(turn + place.before +
+                                    probe(414, with(cornerWords(input, lying), {{303, 1}, {305, row}})) + after);
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    EXPECT_LT((ran.preset().linear() * place.tilt - lying.linear()).norm(), 1e-6) << "row " << row;
+    EXPECT_LT((place.inPlane(ran.preset(), lying.translation()) - Vector3(1, -2, 0)).head<2>().norm(), 1e-5);
   }
 }
 

@@ -18,9 +18,10 @@ struct Block {
 constexpr double studDiameter = 16;
 const std::array<Vector3, 2> studs = {Vector3(-30, 0, 0), Vector3(30, 0, 0)};
 
-Block block(const std::string& machine, double skew, const Vector3& lean) {
-  Block world{Bench(ControlKind::TNC640, machine), skew, lean};
+void layBlock(Block& world, double skew, const Vector3& lean) {
   const Vector3 origin(12, -7, -450);
+  world.skew = skew;
+  world.lean = lean;
   world.bench.preset(1, origin);
   world.bench.believedProbe().maximumTravel = 40;
   world.bench.believedProbe().setUpClearance = 5;
@@ -29,6 +30,11 @@ Block block(const std::string& machine, double skew, const Vector3& lean) {
   for (const Vector3& stud : studs) {
     world.bench.part(simulation::RoundBar(studDiameter / 2, 0, 20), world.machineFromPart * pose(stud));
   }
+}
+
+Block block(const std::string& machine, double skew, const Vector3& lean) {
+  Block world{Bench(ControlKind::TNC640, machine)};
+  layBlock(world, skew, lean);
   return world;
 }
 
@@ -89,6 +95,23 @@ TEST(RotationCycles, KnowEveryCombinationWithoutRotaryAxes) {
         EXPECT_LT((ran.preset().linear() - expected).norm(), cycle == 1420 ? 1e-4 : 1e-7);
       }
     }
+  }
+}
+
+/// A slide upon the rotary table moves the workpiece, but does not turn it: the table is still the axis to align by.
+TEST(RotationCycles, AlignByATableThatCarriesASlide) {
+  for (const int cycle : {1410, 1411}) {
+    Block world{Bench(ControlKind::TNC640, "mill5-head-table")};
+    machine::MachineDescription& machine = world.bench.setup.world.truth.machine;
+    const std::size_t x = *machine.axisIndex("X");
+    std::erase_if(machine.tableChain, [&](const auto& element) { return element.axis == x; });
+    std::erase_if(machine.spindleChain, [&](const auto& element) { return element.axis == x; });
+    machine.tableChain.push_back({x, -Vector3::UnitX(), Vector3::Zero()});
+    layBlock(world, 1.5, Vector3::Zero());
+    const Ran ran = run(world, cycle, 0, 1, 1);
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    const Matrix3 turn = machine::baseFromTable(machine, ran.machine->position()).linear();
+    EXPECT_LT((turn * world.machineFromPart.linear() - Matrix3::Identity()).norm(), 1e-7) << cycle;
   }
 }
 

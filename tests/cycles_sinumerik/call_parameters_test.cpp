@@ -256,6 +256,28 @@ TEST(CallParameters, EvnumTakesAnEmpiricalValueOffWhereItMay) {
   }
 }
 
+/// S_KNUM1 that leaves the component open corrects the radius of a mill, also where lengths count as those of turning
+/// tools: those name no axis of the measurement then.
+TEST(CallParameters, AMillIsCorrectedByItsRadiusWhereItsLengthsCountAsOnLathes) {
+  simulation::Truth ring = perfectWorld();
+  place(ring, simulation::Ring(20.1, 80, -60), translation({0, 0, table}));
+  SinumerikBench hole(ring);
+  plantFrame(hole, "$P_UIFR", 1, {0, 0, table});
+  hole.control.data.set("$TC_TP2", {7}, std::string("MILL"));
+  hole.set("$TC_DP1", {7, 1}, 120);
+  // The third length of a turning tool lies along Z in G17.
+  hole.set("$SC_TOOL_LENGTH_TYPE", {}, 2);
+  hole.set("$TC_DP5", {1, 1}, hole.data("$TC_DP3", {1, 1}));
+  hole.set("$TC_DP3", {1, 1}, 0);
+  hole.start({0, 0, -10});
+  hole.run("CYCLE977", {{"S_MVAR", 201}, {"S_KNUM1", 1}, {"S_SETV", 40}, {"S_FA", 6}, {"S_TSA", 2}},
+           {{"S_TNAME", "MILL"}});
+  EXPECT_NEAR(hole.ovr(4), 40.2, 1e-7);
+  EXPECT_NEAR(hole.data("$TC_DP15", {7, 1}), 0.1, 1e-7);
+  for (const char* length : {"$TC_DP12", "$TC_DP13", "$TC_DP14"})
+    EXPECT_EQ(hole.data(length, {7, 1}), 0) << length;
+}
+
 TEST(CallParameters, AmodeMakesLimitsATolerance) {
   simulation::Truth truth = perfectWorld();
   place(truth, simulation::Box({0.08, 0, -60}, {80, 80, 0}), translation({0, 0, table}));

@@ -69,6 +69,17 @@ TEST(ToolProbe, SignalsWhenAToolTouchesIt) {
   }
 }
 
+/// What the control is told of the contact: cycles ask whether it is a cuboid.
+TEST(ToolProbe, KnowsADiscFromACuboid) {
+  for (const auto& [contact, cuboid] : {std::pair("diameter = 40", false), {"size = [40, 30]", true}}) {
+    Diagnostics diagnostics;
+    const auto setup = read(std::string("[tool_probe]\n") + contact + "\npose = { z = -400 }\n", diagnostics);
+    EXPECT_TRUE(diagnostics.empty()) << (diagnostics.empty() ? "" : format(diagnostics.front()));
+    ASSERT_EQ(setup.beliefs.toolProbes.size(), 1U) << contact;
+    EXPECT_EQ(setup.beliefs.toolProbes.front().cuboid, cuboid) << contact;
+  }
+}
+
 TEST(ToolProbe, IsNotThereUnlessTheSetupHasIt) {
   const auto without = built("[gauge_block]\nsize = [20, 20, 20]\npose = { z = -400 }\n");
   EXPECT_EQ(without->measure({positions({0, 0, -330}), Feed::at(300), Sensor::ToolTouchProbe}).end,

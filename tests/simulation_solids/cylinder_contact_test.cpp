@@ -73,6 +73,22 @@ TEST(CylinderSweep, MeetsATriangleWhereTheNearestPointsMeet) {
   EXPECT_GT(contacts, 40);
 }
 
+/// A cylinder that stands in a triangle at the start meets it at once, where its axis pierces it.
+TEST(CylinderSweep, MeetsATriangleThatItStandsInWhereItsAxisPiercesIt) {
+  std::mt19937_64 random(32);
+  for (int i = 0; i < 50; ++i) {
+    const Triangle t{randomPoint(random, 20), randomPoint(random, 20), randomPoint(random, 20)};
+    const double a = uniform(random, 0.1, 0.8), b = uniform(random, 0.1, 0.9 - a);
+    const Vector3 pierced = t[0] + a * (t[1] - t[0]) + b * (t[2] - t[0]);
+    const Vector3 up = randomDirection(random), base = pierced - uniform(random, 5, 15) * up;
+    const Way way = wayBetween(base, base + 10 * randomDirection(random));
+    Meeting meeting;
+    ASSERT_TRUE(sweepCylinder(way, 2, 20 * up, t, meeting)) << i;
+    EXPECT_LE(meeting.when, 0) << i;
+    EXPECT_LT((meeting.point - pierced).norm(), 1e-7) << i;
+  }
+}
+
 /// A thin pin under a wide body stops it where the body's flat end meets the pin's top, at any place under it.
 TEST(CylinderContact, AFlatEndHasNoGapsAndNoDome) {
   SolidFeature pin;

@@ -443,5 +443,14 @@ TEST(UnusualFaces, GoOnBeyondTheEndsOfTheirSplinesWhereTheirEdgesDo) {
   EXPECT_GT(beyond, 0) << "no spline ends within its face";
 }
 
+/// A shape without faces and one without an end have no size.
+TEST(UnusualFaces, HaveNoSizeWhereNoBoxHoldsThem) {
+  TopoDS_Compound empty;
+  BRep_Builder().MakeCompound(empty);
+  EXPECT_EQ(sizeOf(empty), 0);
+  EXPECT_EQ(sizeOf(BRepBuilderAPI_MakeFace(gp_Pln(gp::XOY())).Face()), 0);
+  EXPECT_NEAR(sizeOf(BRepPrimAPI_MakeBox(2, 3, 6).Shape()), 7, 1e-3);
+}
+
 }  // namespace
 }  // namespace probewright::simulation

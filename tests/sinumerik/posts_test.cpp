@@ -1,4 +1,8 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
 
 #include "language/sinumerik/check.hpp"
 #include "sinumerik/world.hpp"
@@ -175,6 +179,13 @@ TEST(Posts, WordsOfOtherDialectsAreExplained) {
   };
   for (const char* block : {"G21\n", "G28 U0 W0\n", "G43 H1 Z5\n", "G49 G80\n", "G73 X5 Z-20\n"})
     EXPECT_NE(advice(block).find("ISO dialect"), std::string::npos) << block << advice(block);
+  // G functions that Fanuc controls have and SINUMERIK controls do not.
+  const std::vector<int> ofDialect = {20, 21, 22, 23, 24, 27, 28, 29, 30, 31, 32, 43, 44, 49, 50, 51, 52, 65, 66, 67,
+                                      68, 69, 72, 73, 76, 77, 78, 79, 80, 81, 82, 83, 84, 85, 86, 87, 88, 89, 98, 99};
+  for (int number = 0; number < 100; ++number) {
+    const bool named = advice(fmt::format("G{}\n", number)).find("ISO dialect") != std::string::npos;
+    EXPECT_EQ(named, std::ranges::count(ofDialect, number) == 1) << "G" << number;
+  }
 }
 
 }  // namespace

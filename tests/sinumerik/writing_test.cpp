@@ -172,6 +172,11 @@ TEST(SinumerikWriter, WritesAsOneWouldByHand) {
   EXPECT_EQ(rewritten("msg(\"Ring \"<<r1)"), "MSG(\"Ring \"<<R1)");
   EXPECT_EQ(rewritten("def real a_a=-1.5,b_b[2,3]"), "DEF REAL A_A=-1.5,B_B[2,3]");
   EXPECT_EQ(rewritten("x=ic(-5)"), "X=IC(-5)");
+  // Arguments that are left out have their comma only where another follows.
+  EXPECT_EQ(rewritten("ret(\"LBL\")"), "RET(\"LBL\")");
+  EXPECT_EQ(rewritten("ret(\"LBL\",1,,)"), "RET(\"LBL\",1)");
+  EXPECT_EQ(rewritten("ret(,,2)"), "RET(,,2)");
+  EXPECT_EQ(rewritten("ret(\"LBL\",,,1)"), "RET(\"LBL\",,,1)");
   EXPECT_EQ(rewritten("r1=r2*(-3)"), "R1=R2*(-3)");
   EXPECT_EQ(rewritten("/2 lbl_a: g0 z5"), "/2 LBL_A: G0 Z5");
 }

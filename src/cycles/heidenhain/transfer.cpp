@@ -48,10 +48,8 @@ Matrix3 turnedAxes(Context& context, double degrees, Transformation transformed)
   const Matrix3 present = rotationFromSpaceAngles(coordinates.preset.spaceAngles);
   if (coordinates.tilt && !context.control().isTNC640()) return present * rotation(toolAxis, degrees).linear();
   const auto lineAxes = [&](Transformation how, double angle) {
-    // Cycles 8 and 10 leave the plane where it is.
-    const bool turns = how == Transformation::Remains && coordinates.tilt;
     Vector3 normal = coordinates.tilt ? Vector3(*coordinates.tilt * toolAxis) : toolAxis;
-    if (turns) normal = rotation(toolAxis, coordinates.workpiece.rotation).linear() * normal;
+    if (how == Transformation::Remains) normal = rotation(toolAxis, coordinates.workpiece.rotation).linear() * normal;
     const Vector3 line =
         presetFromProgram(coordinates, how).linear() * plane.xyzFromPlane(probing::directionAt(angle)).vector();
     return axesAlong(line, normal);
