@@ -17,7 +17,7 @@ namespace {
 constexpr std::array<std::string_view, 3> linearNames = {"X", "Y", "Z"};
 
 bool isRotary(const machine::MachineDescription& machine, std::size_t axis) {
-  return axis < machine.axes.size() && machine.axes[axis].kind == machine::AxisKind::Rotary;
+  return machine.axes[axis].kind == machine::AxisKind::Rotary;
 }
 
 /// The way of the tip over the table, mm: what rotary axes of head and table move it counts, what the main spindle of a

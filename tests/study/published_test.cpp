@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <tuple>
@@ -180,6 +181,21 @@ TEST(Sobol, FindsTheIndicesOfIshigamisFunction) {
     EXPECT_LT(y.indices[i]->firstHalfWidth, 0.04);
   }
   EXPECT_EQ(y.indices[3]->total, 0);
+}
+
+/// A constant adds nothing to the variance, however large it is beside it.
+TEST(Sobol, DoesNotDependOnAConstant) {
+  Study study = studyOf({source("a", Normal{0, 1}), source("b", Normal{0, 2})}, 100);
+  study.sensitivity = Sensitivity::Sobol;
+  study.sensitivityTrials = 64;
+  const auto indicesOf = [&](double constant) {
+    const Answer y =
+        answerOf(study, [constant](const std::vector<double>& x) { return constant + x[0] + x[0] * x[1]; });
+    return std::array{y.indices[0]->first, y.indices[0]->total, y.indices[1]->first, y.indices[1]->total};
+  };
+  const auto without = indicesOf(0), with = indicesOf(1000);
+  for (std::size_t i = 0; i < without.size(); ++i)
+    EXPECT_NEAR(with[i], without[i], 1e-9) << i;
 }
 
 TEST(OneAtATime, GivesTheBudgetOfALinearModel) {
