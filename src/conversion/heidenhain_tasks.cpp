@@ -426,6 +426,7 @@ private:
       if (isCorner(task.feature)) throw NotCarriedOver("Q381: the preset in the touch probe axis", "set it with 417");
       target(surface);
       surface.wish[2] = q(333);
+      surface.answers = false;
       tasks.push_back(surface);
     }
     return tasks;

@@ -128,7 +128,8 @@ struct MeasuringTask {
   std::array<Quantity, 2> centreTolerance;      ///< permissible deviations of the centre; 0: not monitored
   std::optional<ToolCorrection> tool;
   enum class Log { None, File, Screen } log = Log::None;
-  bool stops = false;  ///< the program ends if a limit is exceeded
+  bool stops = false;   ///< the program ends if a limit is exceeded
+  bool answers = true;  ///< false: what a cycle sets beside its own feature, as the preset in the tool axis; no results
 };
 
 }  // namespace probewright::conversion

@@ -118,9 +118,7 @@ void ToSinumerik::cycle(const Block& block, const CycleCall& cycle) {
   if (log == MeasuringTask::Log::Screen) out_.line("CYCLE150(31,0)");
   Place found;
   for (MeasuringTask each : tasks) {
-    if (each.feature == Feature::Surface && tasks.front().feature != Feature::Surface) {
-      countFromNewOrigin(tasks.front(), found, each);
-    }
+    if (!each.answers) countFromNewOrigin(tasks.front(), found, each);
     const Feature what = each.feature;
     if (what == Feature::HolePair || what == Feature::SpigotPair || what == Feature::BoltCircle ||
         what == Feature::HoleDiagonals) {
@@ -204,10 +202,7 @@ Place ToSinumerik::task(const Block& block, const MeasuringTask& given, const st
   if (task.fromUnturned) takeRotationOut(task);
   if (passage.start) approach(*passage.start, task.clearance);
   out_.line(callText(passage.call));
-  // What else a cycle sets on the way, as the preset in the tool axis, leaves no results.
-  const bool incidental = task.feature == Feature::Surface && heidenhainCycle.starts_with("41") &&
-                          heidenhainCycle != "417" && heidenhainCycle != "419";
-  if (!incidental) copyResults(block, heidenhainCycle, task, passage);
+  if (task.answers) copyResults(block, heidenhainCycle, task, passage);
   if (task.tool && !passage.correctsTool) correctTool(task, passage);
   const cycles::CycleDefinition& cycle = *cycles::heidenhainCycle(std::stoi(heidenhainCycle));
   if (cycle.family == cycles::CycleFamily::Inspection && cycle.parameter(309) != nullptr) judge(block, task, passage);

@@ -106,6 +106,40 @@ TEST(ConvertFlow, TouchesForTheToolAxisWhereTheOriginBeforeTheCycleSays) {
   }
 }
 
+/// Cycles 408 and 409 leave where the middle lies in Q157; the touch for the tool axis leaves nothing.
+TEST(ConvertFlow, KeepsTheMiddleOfARibOrGrooveThroughTheTouchForTheToolAxis) {
+  for (const int cycle : {408, 409}) {
+    SCOPED_TRACE(cycle);
+    const bool groove = cycle == 408;
+    PlantedPart part{Bench(ControlKind::TNC640, "mill3")};
+    part.bench.preset(1, {20, -10, -400}, 0);
+    part.bench.probeOf(100, 2);
+    part.bench.believedProbe().maximumTravel = 20;
+    const auto lay = [&](double from, double to) {
+      part.bench.part(simulation::Box({from, -60, -40}, {to, 60, 0}), pose({20.25, -10, -400.5}, {0, 0, 0}));
+    };
+    if (groove) {
+      lay(-60, -15);
+      lay(15, 60);
+    } else {
+      lay(-15, 15);
+    }
+    Words words = {{321, 0},  {322, 0}, {311, 30}, {272, 1}, {261, -8}, {320, 8},
+                   {260, 30}, {305, 1}, {405, 0},  {303, 1}, {381, 1},  {382, groove ? 30 : 0},
+                   {383, 20}, {384, 0}, {333, 0}};
+    if (groove) words.push_back({301, 1});
+    const Twin original = runKlartext(klartextProgram("CYCL DEF 247 PRESET ~\n    Q339=+1\n" + probe(cycle, words) +
+                                                      "Q5 = Q157 * 100\nL Z+100 R0 FMAX\nL X+Q5 Y+0 FMAX\n"),
+                                      part);
+    const Twin there = runConverted(original, part);
+    ASSERT_TRUE(ranWhole(original));
+    ASSERT_TRUE(ranWhole(there));
+    // The part lies 0.25 mm beside the old origin, which is where the new one is.
+    EXPECT_NEAR(original.axes[0], 20.25 + 100 * 0.25, 1e-6);
+    EXPECT_NEAR(there.axes[0], 20.25 + 100 * 0.25, 1e-6) << there.text;
+  }
+}
+
 // ---- zero offsets in effect that only the running program knows ----
 
 TEST(ConvertFlow, ActsAtOnceWhateverOffsetIsInEffect) {
