@@ -97,6 +97,23 @@ TEST(Check, TheFrameOfAProgram) {
             "    move it before END PGM\n");
 }
 
+/// What the run refuses when it gets there, as far as the way is plain.
+TEST(Check, PredefNeedsAGlobalDefinitionBeforeIt) {
+  const std::string cycle =
+      "3 TCH PROBE 427 COORDINATE ~\n Q263=+0 ~\n Q264=+0 ~\n Q261=-5 ~\n Q320=PREDEF ~\n Q272=3 ~\n Q267=-1 ~\n"
+      " Q260=+20 ~\n Q281=0 ~\n Q288=0 ~\n Q289=0 ~\n Q309=0 ~\n Q330=0\n";
+  const std::string call = "1 TOOL CALL 1 Z\n";
+  const std::string warning = "is PREDEF, but no GLOBAL DEF before it gives it a value";
+  const std::string without = checked(framed(call + cycle));
+  EXPECT_NE(without.find("a.h:7:2: warning: Q320"), std::string::npos) << without;
+  EXPECT_NE(without.find(warning), std::string::npos) << without;
+  const std::string probing = "2 GLOBAL DEF 120 PROBING ~\n Q320=+2 ~\n Q260=+50 ~\n Q301=+1\n";
+  EXPECT_EQ(checked(framed(call + probing + cycle)), "");
+  EXPECT_NE(checked(framed(call + cycle + probing)).find(warning), std::string::npos);
+  // A subprogram or a called program may have defined it.
+  EXPECT_EQ(checked(framed(call + "2 LBL 1\n" + cycle)), "");
+}
+
 TEST(Check, ParametersOfMeasuringCyclesByTheCatalogue) {
   const std::string found =
       checked(framed("1 TCH PROBE 412 INSIDE CIRCLE ~\n Q321=+50 ~\n Q999=1 ~\n Q262=-5 ~\n"

@@ -166,7 +166,14 @@ void CallCheck::follow(const ToolCall& call) {
 
 void CallCheck::follow(const Block& block, const Command& command) {
   constexpr std::string_view mode = "MODE ";
-  if (kindOf(block, command) != CommandKind::Function) return;
+  const CommandKind kind = kindOf(block, command);
+  // CYCL CALL then calls a program.
+  if (kind == CommandKind::ProgramCall || kind == CommandKind::SelectCycle) wayBranches();
+  if (kind == CommandKind::GlobalDefinition) {
+    for (std::uint32_t i = 0; i < command.words.count; ++i)
+      globallyDefined_.insert(block.words[command.words.first + i].address);
+  }
+  if (kind != CommandKind::Function) return;
   const std::string text = upperCase(block.at(command.text));
   if (!text.starts_with(mode)) return;
   const std::string_view named = std::string_view(text).substr(mode.size());
@@ -315,8 +322,14 @@ void CallCheck::checkWord(const cycles::CycleDefinition& cycle, const Word& word
     const Node* node = nodeOf(word);
     if (node == nullptr) return;
     if (node->operation == Operation::Call && node->function == Function::Host && block_->at(node->text) == "PREDEF") {
-      if (parameter->predefinable) return;
-      remarkAt(word, fmt::format("{} cannot be PREDEF", described(*parameter)), "write its value");
+      if (!parameter->predefinable) {
+        remarkAt(word, fmt::format("{} cannot be PREDEF", described(*parameter)), "write its value");
+      } else if (foresees_ && plainWay_ && !globallyDefined_.contains(word.address)) {
+        remarkAt(
+            word, fmt::format("{} is PREDEF, but no GLOBAL DEF before it gives it a value", described(*parameter)),
+            "program GLOBAL DEF before the cycle, unless another program that calls this one does, or write the value",
+            Severity::Warning);
+      }
       return;
     }
     const std::string_view perTurn = feedPerTurn(*block_, word);

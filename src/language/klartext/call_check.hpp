@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -52,9 +53,10 @@ private:
   std::vector<Remark> remarks_;
   /// By cycle: what is active ("cycle 7", "TRANS DATUM"), empty if it has ended; absent: unknown or never defined.
   std::map<int, std::string> transforms_;
-  std::string tilt_;      ///< "PLANE SPATIAL", "cycle 19"; empty: not tilted, or unknown
-  std::string mode_;      ///< of FUNCTION MODE: "TURN", "GRIND"; empty: MILL
-  bool plainWay_ = true;  ///< every block so far has run once
+  std::string tilt_;                         ///< "PLANE SPATIAL", "cycle 19"; empty: not tilted, or unknown
+  std::string mode_;                         ///< of FUNCTION MODE: "TURN", "GRIND"; empty: MILL
+  std::set<std::uint32_t> globallyDefined_;  ///< Q parameters that GLOBAL DEF has given a value
+  bool plainWay_ = true;                     ///< every block so far has run once
   bool toolCalled_ = false;
 };
 
