@@ -29,6 +29,8 @@ if(PROBEWRIGHT_SANITIZE)
   target_compile_options(probewright_options INTERFACE -fsanitize=${PROBEWRIGHT_SANITIZE} -fno-omit-frame-pointer
                                                        -fno-sanitize-recover=all)
   target_link_options(probewright_options INTERFACE -fsanitize=${PROBEWRIGHT_SANITIZE})
+  # Beyond the end of a vector, but within its memory, no sanitizer looks.
+  target_compile_definitions(probewright_options INTERFACE _GLIBCXX_ASSERTIONS)
 endif()
 if(PROBEWRIGHT_COVERAGE)
   target_compile_options(probewright_options INTERFACE --coverage)

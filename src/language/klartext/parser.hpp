@@ -51,6 +51,7 @@ protected:
   // values.cpp: numbers, parameters, words
   std::optional<Operand> value(std::string_view what);
   bool variableFollows();
+  /// None where !variableFollows(). A number that no control has is a mistake and counts as 0, so that reading goes on.
   std::optional<VariableRef> variable();
   std::optional<std::uint32_t> variableIndex();
   std::optional<Operand> textOrVariable(std::string_view what);

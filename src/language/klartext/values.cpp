@@ -103,7 +103,7 @@ std::optional<VariableRef> BlockParser::variable() {
     if (number == mostDigits)
       name = fmt::format("{}{}", name.substr(0, name.find('9')), digits.substr(0, longestQuote));
     error(fmt::format("there is no parameter {}", name), fmt::format("their numbers go up to {}", most));
-    return std::nullopt;
+    variable.index[0] = Operand::of(0);
   }
   return variable;
 }
