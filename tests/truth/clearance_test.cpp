@@ -14,13 +14,6 @@ setup::MachineOptions asking() {
   return options;
 }
 
-World worldWith(const std::string& part) {
-  World world;
-  world.origin = {0, 0, -480};
-  world.part = part;
-  return world;
-}
-
 const records::ClearanceSpan& nearest(const Told& told) {
   return *std::ranges::min_element(told.truth().clearance->spans, {}, &records::ClearanceSpan::distance);
 }

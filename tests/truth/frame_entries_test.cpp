@@ -15,16 +15,6 @@ using ::testing::IsEmpty;
 
 constexpr double cell = 1e-4;  // what a table can show
 
-const std::string probe = "TOOL CALL 1 Z\nL Z+50 R0 FMAX\n";
-
-World worldWith(const std::string& part, const std::string& control = "TNC640") {
-  World world;
-  world.control = control;
-  world.origin = {0, 0, -480};
-  world.part = part;
-  return world;
-}
-
 bool has(const Told& told, const std::string& name) {
   return std::ranges::find(told.truth().entries, name, &records::EntryTruth::name) != told.truth().entries.end();
 }
@@ -35,7 +25,7 @@ TEST(FrameEntries, OfAnEdgeAtTwoPointsAreThoseOfItsFace) {
   World world = worldWith(plate("{ y = 0.4, z = -480 }"));
   world.believedRadius = 3.005;
   const Told told = run(
-      world, probe +
+      world, probeAbove +
                  "TCH PROBE 1410 EDGE ~\nQ1100=-20 ~\nQ1101=-30 ~\nQ1102=-8 ~\nQ1103=+20 ~\nQ1104=-30 ~\nQ1105=-8 ~\n"
                  "Q372=+2 ~\nQ320=+2 ~\nQ260=+20 ~\nQ1125=+1 ~\nQ309=+0 ~\nQ1126=+0 ~\nQ1120=+3 ~\nQ1121=+0\n");
   ASSERT_TRUE(told.finished()) << told.why();
@@ -49,7 +39,7 @@ TEST(FrameEntries, OfAnEdgeAtTwoPointsAreThoseOfItsFace) {
 TEST(FrameEntries, OfAnEdgeThatIsNoneAreNotTold) {
   const Told told = run(
       worldWith("[part]\npose = { z = -500 }\n[[part.feature]]\nshape = \"cylinder\"\ndiameter = 200\nheight = 20\n"),
-      probe +
+      probeAbove +
           "TCH PROBE 1410 EDGE ~\nQ1100=-20 ~\nQ1101=-98 ~\nQ1102=-8 ~\nQ1103=+20 ~\nQ1104=-98 ~\nQ1105=-8 ~\n"
           "Q372=+2 ~\nQ320=+2 ~\nQ260=+20 ~\nQ1125=+1 ~\nQ309=+0 ~\nQ1126=+0 ~\nQ1120=+3 ~\nQ1121=+0\n");
   ASSERT_TRUE(told.finished()) << told.why();
@@ -78,7 +68,7 @@ TEST(FrameEntries, OfAPlaneAreItsAnglesAndItsHeight) {
     world.probe = "repeatability = 0.01\n";
     const Told told =
         run(world,
-            probe +
+            probeAbove +
                 "TCH PROBE 1420 PLANE ~\nQ1100=+30 ~\nQ1101=-25 ~\nQ1102=+0 ~\nQ1103=-30 ~\nQ1104=-25 ~\nQ1105=+0 ~\n"
                 "Q1106=+30 ~\nQ1107=+25 ~\nQ1108=+0 ~\nQ372=-3 ~\nQ320=+2 ~\nQ260=+20 ~\nQ1125=+2 ~\nQ309=+0 ~\n"
                 "Q1126=+0 ~\nQ1120=+0 ~\nQ1121=+1\n");
@@ -106,7 +96,7 @@ TEST(FrameEntries, OfAHoleAndTheFaceBesideItAreThoseOfBoth) {
         "Q384=+0 ~\nQ333=+0\n",
         row, row);
   };
-  const Told told = run(world, probe + preset(2) + preset(3));
+  const Told told = run(world, probeAbove + preset(2) + preset(3));
   ASSERT_TRUE(told.finished()) << told.why();
   for (const int row : {2, 3}) {
     const records::EntryTruth& each = entry(told, fmt::format("preset {}", row));
@@ -128,7 +118,7 @@ TEST(FrameEntries, OfASlotAndTheFaceBesideItAreThoseOfBoth) {
       "40]\n[[part.feature]]\nshape = \"pocket\"\nsize = [100, 14.02]\ndepth = 20\ncorner_radius = 2\n");
   world.probe = "believed_length = 150.02\nbelieved_tip_offset = [0.03, 0.01]\n";
   const Told told = run(
-      world, probe +
+      world, probeAbove +
                  "TCH PROBE 408 SLOT ~\nQ321=+0 ~\nQ322=+0 ~\nQ311=+14 ~\nQ272=+2 ~\nQ261=-8 ~\nQ320=+0 ~\nQ260=+40 ~\n"
                  "Q301=+0 ~\nQ305=+1 ~\nQ405=+0 ~\nQ303=+1 ~\nQ381=+1 ~\nQ382=+30 ~\nQ383=+40 ~\nQ384=+0 ~\nQ333=+0\n");
   ASSERT_TRUE(told.finished()) << told.why();
@@ -150,7 +140,7 @@ TEST(FrameEntries, OfARotaryAxisAreTheAngleAtWhichTheEdgeIsStraight) {
     const std::string edge =
         "TCH PROBE 403 ROTATION ~\nQ263=-30 ~\nQ264=-30 ~\nQ265=+30 ~\nQ266=-30 ~\nQ272=+2 ~\nQ267=+1 ~\nQ261=-8 ~\n"
         "Q320=+4 ~\nQ260=+40 ~\nQ301=+1 ~\nQ312=+6 ~\nQ337=+1 ~\nQ305=+1 ~\nQ303=+1 ~\nQ380=+0\n";
-    const Told told = run(world, probe + edge);
+    const Told told = run(world, probeAbove + edge);
     ASSERT_TRUE(told.finished()) << told.why();
     const records::EntryTruth& preset = entry(told, "preset 1");
     EXPECT_NEAR(value(preset, "C_OFFS").truth, c, 2e-3);
@@ -181,7 +171,7 @@ TEST(FrameEntries, OfARotaryAxisCountInItsSense) {
     ASSERT_TRUE(setup) << format(diagnostics.front());
     const Told told{
         setup::runText("T.H",
-                       "BEGIN PGM T MM\n" + probe +
+                       "BEGIN PGM T MM\n" + probeAbove +
                            "TCH PROBE 403 ROTATION ~\nQ263=-30 ~\nQ264=-30 ~\nQ265=+30 ~\nQ266=-30 ~\nQ272=+2 ~\n"
                            "Q267=+1 ~\nQ261=-8 ~\nQ320=+4 ~\nQ260=+40 ~\nQ301=+1 ~\nQ312=+6 ~\nQ337=+1 ~\nQ305=+1 ~\n"
                            "Q303=+1 ~\nQ380=+0\nEND PGM T MM\n",
@@ -225,7 +215,7 @@ TEST(FrameEntries, OfAZeroOffsetAreToldInEachAxisThatACycleCorrected) {
 TEST(KinematicEntries, AreToldWhereSomethingWasWritten) {
   World world = worldWith(plate("{ z = -480 }"));
   world.more = "[machine]\nname = \"mill5-table-table\"\n";
-  const Told told = run(world, probe);
+  const Told told = run(world, probeAbove);
   ASSERT_TRUE(told.finished()) << told.why();
   EXPECT_THAT(told.truth().entries, IsEmpty());
 }

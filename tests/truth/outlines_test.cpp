@@ -12,8 +12,6 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const std::string probe = "TOOL CALL 1 Z\nL Z+50 R0 FMAX\n";
-
 /// A box with its top at the part's Z0, and what is in or on it.
 std::string boxWith(const std::string& features, const std::string& pose) {
   return "[part]\nname = \"box\"\npose = " + pose +
@@ -41,7 +39,7 @@ TEST(Outlines, OfACornerRunAlongItsSides) {
   World world;
   world.origin = {0, 0, -480};
   world.part = plate("{ z = -480, c = 2 }");
-  const Told told = run(world, probe +
+  const Told told = run(world, probeAbove +
                                    "TCH PROBE 414 PRESET OUTSIDE CORNER ~\nQ263=-40 ~\nQ264=-50 ~\nQ326=+30 ~\n"
                                    "Q296=-60 ~\nQ297=-25 ~\nQ327=+30 ~\nQ261=-8 ~\nQ320=+0 ~\nQ260=+20 ~\nQ301=+0 ~\n"
                                    "Q304=+0 ~\nQ305=+1 ~\nQ331=+0 ~\nQ332=+0 ~\nQ303=+1 ~\nQ381=+0 ~\nQ382=+0 ~\n"
@@ -62,7 +60,7 @@ TEST(Outlines, OfAPocketAreClosed) {
   world.origin = {0, 0, -480};
   world.part = boxWith("[[part.feature]]\nshape = \"pocket\"\nsize = [40, 30]\ndepth = 20\ncorner_radius = 3\n",
                        "{ x = 16, y = -9, z = -480 }");
-  const Told told = run(world, probe +
+  const Told told = run(world, probeAbove +
                                    "TCH PROBE 423 POCKET ~\nQ273=+10 ~\nQ274=-5 ~\nQ282=+40 ~\nQ283=+30 ~\nQ261=-8 ~\n"
                                    "Q320=+0 ~\nQ260=+20 ~\nQ301=+0 ~\nQ284=+41 ~\nQ285=+39 ~\nQ286=+31 ~\nQ287=+29 ~\n"
                                    "Q279=+1 ~\nQ280=+1 ~\nQ281=+0 ~\nQ309=+0 ~\nQ330=+0\n");
@@ -87,7 +85,7 @@ TEST(Outlines, OfAHoleAreThoseOfTheOneOfThatSize) {
       "[[part.feature]]\nshape = \"hole\"\ndiameter = 12\ncentre = [-5, 0, 0]\n"
       "[[part.feature]]\nshape = \"hole\"\ndiameter = 30.01\ncentre = [50, 40, 0]\n",
       "{ z = -480 }");
-  const Told told = run(world, probe +
+  const Told told = run(world, probeAbove +
                                    "TCH PROBE 412 PRESET ~\nQ321=-10 ~\nQ322=-4 ~\nQ262=+30 ~\nQ325=+0 ~\nQ247=+90 ~\n"
                                    "Q261=-5 ~\nQ320=+2 ~\nQ260=+20 ~\nQ301=+0 ~\nQ305=+1 ~\nQ331=+0 ~\nQ332=+0 ~\n"
                                    "Q303=+1 ~\nQ381=+0 ~\nQ382=+0 ~\nQ383=+0 ~\nQ384=+0 ~\nQ333=+0\n");
@@ -118,7 +116,7 @@ TEST(TouchErrors, CountOutwards) {
   const std::string front =
       "TCH PROBE 427 COORDINATE ~\nQ263=+0 ~\nQ264=-30 ~\nQ261=-8 ~\nQ320=+2 ~\nQ272=+2 ~\nQ267=+1 ~\nQ260=+20 ~\n"
       "Q281=+0 ~\nQ288=+99 ~\nQ289=-99 ~\nQ309=+0 ~\nQ330=+0\n";
-  const Told told = run(world, probe + front);
+  const Told told = run(world, probeAbove + front);
   ASSERT_TRUE(told.finished()) << told.why();
   ASSERT_EQ(told.truth().cycles.back().touches.size(), 1U);
   EXPECT_NEAR(told.truth().cycles.back().touches.front()->error, -0.005, 1e-6);
@@ -133,7 +131,7 @@ TEST(Outlines, OfACornerInTheMaterialAreFeltFromOutside) {
   world.more =
       "[[fixture]]\nname = \"block\"\npose = { x = 120, y = 110, z = -500 }\n[[fixture.feature]]\nshape = \"box\"\n"
       "size = [20, 20, 20]\n";
-  const Told told = run(world, probe +
+  const Told told = run(world, probeAbove +
                                    "TCH PROBE 414 PRESET OUTSIDE CORNER ~\nQ263=-20 ~\nQ264=-40 ~\nQ326=+30 ~\n"
                                    "Q296=-50 ~\nQ297=-10 ~\nQ327=+40 ~\nQ261=-8 ~\nQ320=+0 ~\nQ260=+20 ~\nQ301=+1 ~\n"
                                    "Q304=+0 ~\nQ305=+1 ~\nQ331=+0 ~\nQ332=+0 ~\nQ303=+1 ~\nQ381=+0 ~\nQ382=+0 ~\n"
@@ -197,13 +195,13 @@ TEST(Outlines, OfASlotAreNotTakenFromSomethingElse) {
         "[part]\npose = {{ z = -480 }}\n[[part.feature]]\nshape = \"box\"\ncentre = [0, {}, -20]\nsize = [60, 20, "
         "20]\n",
         side * 17);
-    const Told step = run(world, probe + slot);
+    const Told step = run(world, probeAbove + slot);
     ASSERT_FALSE(step.finished());
     EXPECT_THAT(textsOf(step), Not(HasSubstr("the slot of"))) << side;
   }
   world.part = boxWith("[[part.feature]]\nshape = \"pocket\"\nsize = [100, 45]\ndepth = 20\ncorner_radius = 2\n",
                        "{ z = -480 }");
-  const Told wide = run(world, probe + slot);
+  const Told wide = run(world, probeAbove + slot);
   ASSERT_FALSE(wide.finished());
   EXPECT_THAT(textsOf(wide), Not(HasSubstr("the slot of")));
 }
@@ -220,7 +218,7 @@ TEST(Outlines, OfAFaceThatIsNotTurnedTellNoAngle) {
         std::string(
             "[part]\npose = { z = -500 }\n[[part.feature]]\nshape = \"cylinder\"\ndiameter = 60\nheight = 20\n")}) {
     world.part = part;
-    const Told told = run(world, probe + front);
+    const Told told = run(world, probeAbove + front);
     ASSERT_FALSE(told.finished());
     EXPECT_THAT(textsOf(told), HasSubstr(" mm further in +Y"));
     EXPECT_THAT(textsOf(told), Not(HasSubstr("that face")));
@@ -242,14 +240,14 @@ TEST(Outlines, OfABodyTellWhatHelps) {
   };
   const std::string way = "L X-160 Y+0 FMAX\nL Z+5 FMAX\nL X+30 F2000\n";
   world.more = fixture(50, -460, 80);
-  const Told beam = run(world, probe + way);
+  const Told beam = run(world, probeAbove + way);
   ASSERT_FALSE(beam.finished());
   EXPECT_THAT(textsOf(beam), HasSubstr("the body met \"fixture\""));
   EXPECT_THAT(textsOf(beam), Not(HasSubstr("too wide")));
   EXPECT_THAT(textsOf(beam), Not(HasSubstr("a stylus that is")));
   // The roof begins at X31, 60 mm above the plate, and ends 95 mm above it: the stylus passes below.
   world.more = fixture(51, -420, 35);
-  const Told roof = run(world, probe + way);
+  const Told roof = run(world, probeAbove + way);
   ASSERT_FALSE(roof.finished());
   EXPECT_THAT(textsOf(roof), HasSubstr("the body met \"fixture\""));
   EXPECT_THAT(textsOf(roof), Not(HasSubstr("too wide")));
@@ -260,7 +258,7 @@ TEST(Outlines, OfATouchThatTheProgramDoesNotNeedAreNotTold) {
   World world;
   world.origin = {0, 0, -480};
   world.part = plate("{ z = -480 }");
-  const Told told = run(world, probe +
+  const Told told = run(world, probeAbove +
                                    "L X-60 Y+0 FMAX\nL Z-8 FMAX\nTCH PROBE 3.0 MEASURING\nTCH PROBE 3.1 Q1\n"
                                    "TCH PROBE 3.2 X ANGLE: +0\nTCH PROBE 3.3 DIST +5 F100 MB 1 REFERENCE SYSTEM: 0\n"
                                    "TCH PROBE 3.4 ERRORMODE1\n");

@@ -39,6 +39,18 @@ struct World {
   }
 };
 
+/// Preset and G54 where most parts have their top.
+inline World worldWith(const std::string& part, const std::string& control = "TNC640") {
+  World world;
+  world.control = control;
+  world.origin = {0, 0, -480};
+  world.part = part;
+  return world;
+}
+
+/// The first blocks of a Klartext program: the probe in the spindle, above the part.
+inline const std::string probeAbove = "TOOL CALL 1 Z\nL Z+50 R0 FMAX\n";
+
 struct Told {
   session::RunOutcome outcome;
 

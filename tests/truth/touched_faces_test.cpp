@@ -14,16 +14,6 @@ namespace {
 
 constexpr double exact = 1e-6;  // mm, degrees
 
-const std::string probe = "TOOL CALL 1 Z\nL Z+50 R0 FMAX\n";
-
-World worldWith(const std::string& part, const std::string& control = "TNC640") {
-  World world;
-  world.control = control;
-  world.origin = {0, 0, -480};
-  world.part = part;
-  return world;
-}
-
 std::string box(const Vector3& centre, const Vector3& size) {
   return fmt::format("[[part.feature]]\nshape = \"box\"\ncentre = [{}, {}, {}]\nsize = [{}, {}, {}]\n", centre.x(),
                      centre.y(), centre.z(), size.x(), size.y(), size.z());
@@ -77,11 +67,11 @@ TEST(TouchedFaces, OfTwoStepsTellTheLineThroughTheirPoints) {
       "Q320=+2 ~\nQ260=+20 ~\nQ301=+1 ~\nQ281=+0\n";
   const Told steps = run(
       worldWith("[part]\npose = { z = -480 }\n" + box({-20, 0, -20}, {40, 60, 20}) + box({20, 0.5, -20}, {40, 60, 20})),
-      probe + edge);
+      probeAbove + edge);
   ASSERT_TRUE(steps.finished()) << steps.why();
   EXPECT_NEAR(steps.value("Q150"), degreesFromRadians(std::atan2(0.5, 60)), exact);
   EXPECT_EQ(steps.of("Q150")->basis, records::TruthBasis::Points);
-  const Told one = run(worldWith(plate("{ z = -480 }")), probe + edge);
+  const Told one = run(worldWith(plate("{ z = -480 }")), probeAbove + edge);
   ASSERT_TRUE(one.finished()) << one.why();
   EXPECT_EQ(one.of("Q150")->basis, records::TruthBasis::Face);
   EXPECT_EQ(one.of("Q150")->shape, "plane");
@@ -91,7 +81,7 @@ TEST(TouchedFaces, OfTwoStepsTellTheLineThroughTheirPoints) {
 TEST(TouchedFaces, OfThreeStepsTellThePlaneThroughTheirPoints) {
   const Told told = run(worldWith("[part]\npose = { z = -480 }\n" + box({-25, -20, -20}, {30, 30, 20}) +
                                   box({25, -20, -20}, {30, 30, 20.4}) + box({-25, 20, -20}, {30, 30, 20.9})),
-                        probe +
+                        probeAbove +
                             "TCH PROBE 431 PLANE ~\nQ263=-25 ~\nQ264=-20 ~\nQ294=+0 ~\nQ265=+25 ~\nQ266=-20 ~\n"
                             "Q295=+0.4 ~\nQ296=-25 ~\nQ297=+20 ~\nQ298=+0.9 ~\nQ320=+2 ~\nQ260=+20 ~\nQ281=+0\n");
   ASSERT_TRUE(told.finished()) << told.why();
@@ -113,7 +103,7 @@ TEST(TouchedFaces, OfAFaceAndOfTrianglesRestOnPoints) {
                              wall.path(), side > 0 ? 7 : -17);
     const Told told =
         run(world,
-            probe +
+            probeAbove +
                 "TCH PROBE 408 SLOT ~\nQ321=+0 ~\nQ322=+0 ~\nQ311=+14 ~\nQ272=+2 ~\nQ261=-8 ~\nQ320=+0 ~\nQ260=+40 ~\n"
                 "Q301=+0 ~\nQ305=+0 ~\nQ405=+0 ~\nQ303=+1 ~\nQ381=+0 ~\nQ382=+0 ~\nQ383=+0 ~\nQ384=+0 ~\nQ333=+0\n");
     ASSERT_TRUE(told.finished()) << told.why();
@@ -139,7 +129,7 @@ TEST(TouchedFaces, OfTwoStudsOfTrianglesAreThoseOfTheFits) {
   const Triangles studs(facets);
   const Told told = run(
       worldWith(fmt::format("[part]\nfile = \"{}\"\npose = {{ z = -500 }}\n", studs.path())),
-      probe +
+      probeAbove +
           "TCH PROBE 1411 TWO CIRCLES ~\nQ1100=-20 ~\nQ1101=+0 ~\nQ1102=-5 ~\nQ1116=+16 ~\nQ1103=+20 ~\nQ1104=+0 ~\n"
           "Q1105=-5 ~\nQ1117=+16 ~\nQ1115=+1 ~\nQ423=+4 ~\nQ325=+0 ~\nQ1119=+360 ~\nQ320=+2 ~\nQ260=+20 ~\nQ1125=+2 ~\n"
           "Q309=+0 ~\nQ1126=+0 ~\nQ1120=+0 ~\nQ1121=+0\n");
@@ -162,7 +152,7 @@ TEST(TouchedFaces, OfAHoleBesideItsPlaceAreItsOwn) {
                         "[[part.feature]]\nshape = \"hole\"\ndiameter = 30.01\ncentre = [50, 40, 0]\n"
                   : std::string("[[part.feature]]\nshape = \"cylinder\"\ndiameter = 30.01\nheight = 20\ncentre = [50, "
                                 "40, -20]\n"))),
-        probe +
+        probeAbove +
             fmt::format("TCH PROBE {} ROUND ~\nQ273=+46 ~\nQ274=+40 ~\nQ262=+30 ~\nQ325=+0 ~\nQ247=+90 ~\nQ261=-5 ~\n"
                         "Q320=+3 ~\nQ260=+20 ~\nQ301=+1 ~\n{}Q279=+9 ~\nQ280=+9 ~\nQ281=+0 ~\nQ309=+0 ~\nQ330=+0\n",
                         cycle, hole ? "Q275=+30.1 ~\nQ276=+29 ~\n" : "Q277=+30.1 ~\nQ278=+29 ~\n"));
@@ -186,7 +176,7 @@ TEST(TouchedFaces, OfACornerAskewAreItsOwn) {
   world.probe = "maximum_travel = 40\n";
   for (const char* errors : {"", "[[errors.squareness]]\naxis = \"X\"\ntowards = \"Y\"\ndegrees = 0.5\n"}) {
     world.more = errors;
-    const Told told = run(world, probe + corner);
+    const Told told = run(world, probeAbove + corner);
     ASSERT_TRUE(told.finished()) << told.why();
     EXPECT_NEAR(told.value("Q151"), planted.x(), exact) << errors;
     EXPECT_NEAR(told.value("Q152"), planted.y(), exact) << errors;
@@ -200,7 +190,7 @@ TEST(TouchedFaces, OfARoundFaceAreThoseWhereTheControlSawTheTouch) {
       worldWith("[part]\npose = { z = -500 }\n[[part.feature]]\nshape = \"cylinder\"\ndiameter = 40\nheight = 20\n");
   world.probe = "believed_tip_offset = [0.5, 0]\n";
   const Told told =
-      run(world, probe +
+      run(world, probeAbove +
                      "TCH PROBE 427 COORDINATE ~\nQ263=+10 ~\nQ264=-17 ~\nQ261=-8 ~\nQ320=+4 ~\nQ272=+2 ~\n"
                      "Q267=+1 ~\nQ260=+20 ~\nQ281=+0 ~\nQ288=+99 ~\nQ289=-99 ~\nQ309=+0 ~\nQ330=+0\n");
   ASSERT_TRUE(told.finished()) << told.why();
@@ -271,9 +261,10 @@ TEST(TouchedFaces, OfALeaningCornerAreThoseAtTheHeightOfTheTouches) {
   for (const double lower : {0.0, 6.0}) {
     World world = worldWith(plate("{ z = -480, a = 2, b = 1.5 }"));
     world.origin.z() -= lower;
-    const Told told = run(
-        world,
-        probe + fmt::format(
+    const Told told =
+        run(world,
+            probeAbove +
+                fmt::format(
                     "TCH PROBE 414 CORNER ~\nQ263=-30 ~\nQ264=-30 ~\nQ326=+20 ~\nQ296=-40 ~\nQ297=-20 ~\nQ327=+20 ~\n"
                     "Q261={:+} ~\nQ320=+3 ~\nQ260=+26 ~\nQ301=+1 ~\nQ304=+0 ~\nQ305=+1 ~\nQ331=+0 ~\nQ332=+0 ~\n"
                     "Q303=+1 ~\nQ381=+0 ~\nQ382=+0 ~\nQ383=+0 ~\nQ384=+0 ~\nQ333=+0\n",
