@@ -306,7 +306,9 @@ TEST(Cycle451Speed, ThreeAxesOfEightPositionsTakeLessThanASecond) {
   EXPECT_EQ(ran.touches(), 3U * 9 * 5);
   EXPECT_LT(apart(machine::corrected(machine, kinematicsOf(ran, machine).axes), world.truth()).place, 1e-6);
   RecordProperty("seconds", fmt::format("{:.3f}", seconds));
+#if !defined(__SANITIZE_ADDRESS__)  // which takes six times as long
   EXPECT_LT(seconds, 1);
+#endif
 }
 
 }  // namespace
