@@ -6,6 +6,7 @@
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_Copy.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
+#include <BRepClass3d_SolidClassifier.hxx>
 #include <BRepClass_FaceClassifier.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
@@ -221,6 +222,15 @@ double distanceToEdges(const TopoDS_Shape& vertex, const TopoDS_Face& face) {
   return least;
 }
 
+/// True if a solid of the shape holds the point, by OpenCASCADE's classifier.
+bool isWithin(const TopoDS_Shape& shape, const Vector3& point) {
+  for (TopExp_Explorer solids(shape, TopAbs_SOLID); solids.More(); solids.Next()) {
+    const gp_Pnt place(point.x(), point.y(), point.z());
+    if (BRepClass3d_SolidClassifier(solids.Current(), place, Precision::Confusion()).State() == TopAbs_IN) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Oracle::Distance Oracle::exactDistance(const Vector3& point, double about) const {
@@ -269,6 +279,7 @@ std::string Oracle::objectionTo(const std::optional<BallContact>& contact, const
     return (met.fraction == 0 && !skin_) || exactDistance(met.ballCentre, radius).most < radius - precision_;
   };
   const auto isTouched = [&] {
+    if (contact->fraction == 0 && isWithin(shape_, from)) return true;  // bodies that overlap have no closed mesh
     const auto [least, most] = exactDistance(contact->ballCentre, radius);
     return least <= radius + precision_ && most >= radius - precision_;
   };
