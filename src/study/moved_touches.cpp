@@ -4,11 +4,8 @@
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <cstdint>
-#include <limits>
-#include <string>
 #include <utility>
 
-#include "cycles/fit_records.hpp"
 #include "metrology/fits.hpp"
 #include "study/random.hpp"
 
@@ -30,15 +27,6 @@ std::vector<Vector2> inPlane(std::span<const Vector3> points) {
   for (const Vector3& point : points)
     flat.emplace_back(point.head<2>());
   return flat;
-}
-
-/// Empty if no such shape passes through the points.
-std::vector<double> cofactorsOf(const std::string& shape, std::span<const Vector3> points) {
-  const auto of = [](const auto& fit) { return fit ? cycles::recordOf(*fit, {}).cofactors : std::vector<double>(); };
-  if (shape == "circle") return of(metrology::fitCircle(inPlane(points), cycles::withCofactors));
-  if (shape == "sphere") return of(metrology::fitSphere(points, cycles::withCofactors));
-  if (shape == "line") return of(metrology::fitLine(inPlane(points), cycles::withCofactors));
-  return of(metrology::fitPlane(points, cycles::withCofactors));
 }
 
 /// In degrees.
@@ -93,28 +81,15 @@ MovedTouches::MovedTouches(const control::CycleRecord& cycle, const control::Fit
   }
 }
 
-/// The record of a fit does not say in which working plane it lies: it is the one in which the balls of its touches
-/// give the cofactors of the record. Lines give the same ones, and what is asked here, in any plane that they lie in.
 void MovedTouches::findPoints(const control::CycleRecord& cycle) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const int tool : {2, 1, 0}) {
-    std::vector<Vector3> points;
-    for (const std::size_t touch : fit_.touches) {
-      if (touch >= cycle.touches.size()) return;
-      const Vector3& ball = cycle.touches[touch].ballCentre;
-      // Circles and lines lie in the plane.
-      const bool flat = fit_.shape == "circle" || fit_.shape == "line";
-      points.emplace_back(ball[(tool + 1) % 3], ball[(tool + 2) % 3], flat ? 0 : ball[tool]);
-    }
-    const std::vector<double> cofactors = cofactorsOf(fit_.shape, points);
-    if (cofactors.size() != fit_.cofactors.size()) continue;
-    double apart = 0;
-    for (std::size_t i = 0; i < cofactors.size(); ++i)
-      apart = std::max(apart, std::abs(cofactors[i] - fit_.cofactors[i]));
-    if (!(apart < least)) continue;
-    least = apart;
-    points_ = std::move(points);
+  const bool isFlat = fit_.shape == "circle" || fit_.shape == "line";
+  std::vector<Vector3> points;
+  for (const std::size_t touch : fit_.touches) {
+    if (touch >= cycle.touches.size()) return;
+    points.push_back(cycle.plane.planeFromXyz(cycle.touches[touch].ballCentre));
+    if (isFlat) points.back().z() = 0;
   }
+  points_ = std::move(points);
 }
 
 std::optional<MovedTouches::Numbers> MovedTouches::numbersOf(std::span<const Vector3> points) const {
