@@ -10,12 +10,14 @@
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
+#include <Geom2d_Line.hxx>
 #include <IMeshData_Face.hxx>
 #include <Message_ProgressIndicator.hxx>
 #include <Poly_Triangulation.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <algorithm>
 #include <limits>
@@ -78,6 +80,34 @@ const char* kindOf(const TopoDS_Face& face) {
 }
 
 bool isFlat(const TopoDS_Face& face) { return BRepAdaptor_Surface(face, Standard_False).GetType() == GeomAbs_Plane; }
+
+/// The line along which the seam of a cone runs over its parameters: u is the same all along, but for rounding. Nothing
+/// if it is no such line, or is one to the last bit.
+Handle(Geom2d_Line) uprightSeam(const TopoDS_Edge& edge, const TopoDS_Face& cone) {
+  constexpr double kRounding = 1e-9;
+  double first = 0, last = 0;
+  const auto line = Handle(Geom2d_Line)::DownCast(BRep_Tool::CurveOnSurface(edge, cone, first, last));
+  if (line.IsNull() || line->Direction().X() == 0 || std::abs(line->Direction().X()) > kRounding) return {};
+  const double u = line->Value((first + last) / 2).X();
+  return new Geom2d_Line(gp_Pnt2d(u, line->Location().Y()), gp_Dir2d(0, line->Direction().Y()));
+}
+
+/// OpenCASCADE's mesher tells the two lines of a cone's seam from each other by where they begin, infinitely far away:
+/// if they are upright but for rounding, it takes the wrong one, and gives the face up.
+void straightenSeams(const TopoDS_Shape& shape) {
+  for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next()) {
+    const TopoDS_Face face = TopoDS::Face(faces.Current().Oriented(TopAbs_FORWARD));
+    if (BRepAdaptor_Surface(face, Standard_False).GetType() != GeomAbs_Cone) continue;
+    for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next()) {
+      const TopoDS_Edge edge = TopoDS::Edge(edges.Current().Oriented(TopAbs_FORWARD));
+      if (!BRep_Tool::IsClosed(edge, face)) continue;
+      const Handle(Geom2d_Line) line = uprightSeam(edge, face);
+      const Handle(Geom2d_Line) other = uprightSeam(TopoDS::Edge(edge.Reversed()), face);
+      if (line.IsNull() || other.IsNull()) continue;
+      BRep_Builder().UpdateEdge(edge, line, other, face, BRep_Tool::Tolerance(edge));
+    }
+  }
+}
 
 /// Ends the mesher's work on a face after so many points: it asks before each whether to go on. Says meanwhile that it
 /// does.
@@ -214,6 +244,7 @@ std::vector<GridFace> meshFaces(const TopoDS_Shape& shape, double deflection, co
   const FaceNumbers numbers = numbered(shape);
   GivenUp givenUp;
   BRepTools::Clean(shape);
+  straightenSeams(shape);
   const Handle(BRepMesh_Context) context = new BRepMesh_Context();
   context->SetFaceDiscret(new BRepMesh_FaceDiscret(new WatchedAlgos(numbers, options, givenUp)));
   BRepMesh_IncrementalMesh mesher;
