@@ -140,8 +140,8 @@ void readInsert(TomlReader& reader, TrueCutter& cutter) {
     insert.firstNormal = (*normals)[0];
     insert.secondNormal = (*normals)[1];
     const double between = std::abs(std::remainder(insert.secondNormal - insert.firstNormal, 360));
-    if (between < 1 || between > 179)
-      reader.report("edge_normals", "the normals of the two edges are 1 to 179 degrees apart");
+    if (between < 1 || between > 180 - 1e-6)
+      reader.report("edge_normals", "the normals of the two edges are at least 1 and less than 180 degrees apart");
   }
   if (insert.wear > 0 && insert.wear >= insert.noseRadius)
     reader.report("wear", "the wear leaves nothing of the nose radius");

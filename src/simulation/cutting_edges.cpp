@@ -74,6 +74,11 @@ std::vector<EdgePiece> meridianOf(const Drawn& drawn, const Shifted& shifted) {
   std::vector<EdgePiece> left;
   for (EdgePiece piece : pieces)
     if (shifted.broken <= 0 || cutBelow(piece, shifted.broken)) left.push_back(piece);
+  // A stump ends in the face of the break, from the axis on.
+  if (shifted.broken > 0 && !left.empty()) {
+    const Vector2 rim = left.front().meridian(0);
+    if (rim.x() > 0) left.insert(left.begin(), line({0, rim.y()}, rim));
+  }
   pieces = std::move(left);
   const Vector2 shift(shifted.radial, -shifted.axial);
   for (EdgePiece& piece : pieces) {

@@ -46,7 +46,7 @@ TEST(ToolKeys, NameEachMistakeAtItsPlace) {
       {tool(insert), "only tools of kind \"turn\" have an insert", 7},
       {tool("teeth = 2\n" + insert, "turn"), "a tool with an insert has no teeth", 7},
       {tool("[tool.cutter.insert]\n", "turn"), "nose_radius", 7},
-      {tool(insert + "edge_normals = [10, 190]\n", "turn"), "are 1 to 179 degrees apart", 9},
+      {tool(insert + "edge_normals = [10, 190]\n", "turn"), "are at least 1 and less than 180 degrees apart", 9},
       {tool(insert + "wear = 0.8\n", "turn"), "the wear leaves nothing of the nose radius", 9},
       {probe + "directions = \"+X up\"\n", "\"up\" is not a direction of the contact", 3},
       {probe + "directions = \"\"\n", "a contact that gives way in no direction never signals", 3},

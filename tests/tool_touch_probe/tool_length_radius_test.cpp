@@ -107,6 +107,30 @@ TEST(ToolMeasurement, FindsEachTooth) {
   }
 }
 
+/// A tooth is lowest where its corner begins, which R2 says; only there it is as long as it is.
+TEST(ToolMeasurement, FindsTheLengthOfEachToothThatHasACorner) {
+  Dice dice(4824);
+  for (int at = 0; at < 12; ++at) {
+    SCOPED_TRACE(fmt::format("world {}", at));
+    ToolWorld world(controlOf(at));
+    world.disc(40);
+    const int teeth = 2 + at % 5;
+    simulation::TrueTool mill = plantedMill(dice, dice.between(3, 12), teeth, true);
+    mill.cutter.helix = 0;
+    mill.cutter.cornerRadius = written(dice.between(0.1, 0.5) * mill.radius);
+    world.add(mill, 12, written(mill.length + dice.between(-0.5, 0.5)), written(mill.radius));
+    TableFolder folder(world.bench);
+    enter(folder, world, {{"CUT", fmt::format("{}", teeth)}, {"R2", fmt::format("{:+.4f}", mill.cutter.cornerRadius)}});
+    const Ran ran = world.run(toolCycle(481, 0, true, false));
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    std::vector<double> lengths;
+    for (const auto& tooth : mill.cutter.teeth)
+      lengths.push_back(mill.length + tooth.axial);
+    EXPECT_THAT(sorted(shownTeeth(ran.outcome.journal.cycles.front(), "LENGTH")),
+                testing::Pointwise(testing::DoubleNear(6e-5), sorted(lengths)));
+  }
+}
+
 /// A mill of one known tooth, checked against a table that is wrong by `wrong`.
 struct Checked {
   Checked(ControlKind kind, double wrongLength, double wrongRadius, const std::string& wear,
@@ -193,6 +217,30 @@ TEST(ToolMeasurement, FindsABrokenToothAmongOthers) {
     EXPECT_EQ(each.q(199), 2) << each.why();
     EXPECT_EQ(checked.locked(each), "L");
     EXPECT_THAT(each.cycle().screens.back(), HasSubstr("+79.4000 B"));
+  }
+}
+
+/// A mill wider than the contact whose end has broken off touches with the face of the break.
+TEST(ToolMeasurement, FindsAToolWhoseEndHasBrokenOff) {
+  for (const char* offset : {"0", "14"}) {
+    SCOPED_TRACE(offset);
+    ToolWorld world;
+    world.disc(12);
+    simulation::TrueTool mill;
+    mill.length = 90;
+    mill.radius = 25;
+    for (int i = 0; i < 4; ++i)
+      mill.cutter.teeth.push_back({.angle = 20.0 + 90 * i, .axial = 0.01, .broken = 0.8});
+    world.add(mill, 12, mill.length, mill.radius);
+    world.parameter("stopOnCheck", "", 0);
+    TableFolder folder(world.bench);
+    enter(folder, world, {{"R-OFFS", offset}, {"CUT", "4"}, {"LBREAK", "0.5"}});
+    for (const bool teeth : {false, true}) {
+      const Ran ran = world.run(toolCycle(481, 1, teeth, false));
+      ASSERT_TRUE(ran.finished()) << ran.why();
+      EXPECT_NEAR(ran.q(115), -0.79, 0.0051);
+      EXPECT_EQ(ran.q(199), 2);
+    }
   }
 }
 

@@ -80,6 +80,25 @@ TEST(ToolProbeCalibration, FindsPlaceAndWidthWithAPinThatRunsOut) {
   }
 }
 
+TEST(ToolProbeCalibration, FindsCuboidsThatAreLongerThanWide) {
+  Dice dice(4804);
+  for (int at = 0; at < 6; ++at) {
+    SCOPED_TRACE(fmt::format("world {}", at));
+    Calibrating calibrating(controlOf(at), dice);
+    const double edge = written(dice.between(14, 20)), longer = edge + written(dice.between(12, 25));
+    calibrating.world.bench.setup.world.truth.toolProbes.clear();
+    at % 2 == 0 ? calibrating.world.cuboid(edge, longer) : calibrating.world.cuboid(longer, edge);
+    for (const char* wrong : {"calibratedContactRadius1", "calibratedContactRadius2"})
+      calibrating.world.bench.setup.beliefs.parameters[wrong] = {7.0, {}};
+    calibrating.world.add(calibrating.pin, 9, calibrating.pin.length, calibrating.pin.radius);
+    const Ran ran = calibrating.world.run(calibrating.cycle(at / 2), 9);
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    const auto values = found(ran);
+    EXPECT_NEAR(values[3], calibrating.world.half1, 2e-6);
+    EXPECT_NEAR(values[4], calibrating.world.half2, 2e-6);
+  }
+}
+
 /// What the pin is thicker and longer than TOOL.T says makes the contact wider and higher, and tools thinner and
 /// shorter by as much.
 TEST(ToolProbeCalibration, HandsTheMistakesOfThePinOnToTheTools) {

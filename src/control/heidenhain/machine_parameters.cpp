@@ -97,7 +97,7 @@ constexpr std::array entries = {
                           "depth of the tool's lower end below the upper edge of the contact in radial probing",
                           &MachineParameters::mp6530},
     MachineParameterEntry{"MP6531", "", onITNC530, 0.001, 99.9999, "mm",
-                          "diameter or edge length of the contact of the tool touch probe", &MachineParameters::mp6531},
+                          "diameter or longer edge of the contact of the tool touch probe", &MachineParameters::mp6531},
     MachineParameterEntry{"MP6540", "", onITNC530, 0.001, 30000, "mm", "safety zone about the contact",
                           &MachineParameters::mp6540},
     MachineParameterEntry{"MP6550", "", onITNC530, 10, 10000, "mm/min", "rapid traverse near the tool touch probe",
@@ -197,7 +197,7 @@ constexpr std::array entries = {
     MachineParameterEntry{"centerPos.2", "114201.2", onTNC640, -99999.9999, 99999.9999, "mm",
                           "upper edge of its contact in Z, machine coordinates", &MachineParameters::mp6580z},
     MachineParameterEntry{"contactSize", "", onTNC640, 0.001, 99.9999, "mm",
-                          "diameter or edge length of the contact of the tool touch probe", &MachineParameters::mp6531},
+                          "diameter or longer edge of the contact of the tool touch probe", &MachineParameters::mp6531},
     MachineParameterEntry{
         "rectStylus", "114300", onTNC640, 0, 1, "",
         "1: the contact of the tool touch probe is a cuboid (CfgTTRectStylus), which cycle 485 needs; "

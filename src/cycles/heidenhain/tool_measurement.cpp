@@ -256,13 +256,15 @@ void ToolMeasurement::orientTo(double tooth) {
   channel_.orientSpindle(std::remainder(*firstTooth_ + 360 * tooth / teeth_, 360));
 }
 
-/// How far the tool's axis is from the middle of the contact while a tooth is measured: only that tooth is above it.
+/// How far the tool's axis is from the middle of the contact while a tooth is measured: the lowest part of that tooth,
+/// which ends where its corner begins, is above it, and that of no other tooth.
 double ToolMeasurement::toothLengthOffset() const {
   const Control& control = context_.control();
   if (const auto entered = control.tables.tools.number(control.tool.row, "R-OFFS")) return *entered;
   const double pitch = std::min(2 * std::numbers::pi / teeth_, std::numbers::pi / 2);
   const double half = (axis_ == 0 ? probe_.size : probe_.size2) / 2;
-  return half + radius_ * (1 + std::cos(pitch)) / 2;
+  const double flat = std::max(0.0, radius_ - column("R2"));
+  return half + flat * (1 + std::cos(pitch)) / 2;
 }
 
 void ToolMeasurement::measureLength() {

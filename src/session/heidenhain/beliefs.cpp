@@ -226,7 +226,7 @@ hh::MachineParameters machineParameters(const Beliefs& beliefs, ControlKind kind
     parameters.mp6580z = probe.centre.z();
     parameters.contactZ = probe.centre.z() - probe.pretravel;
     if (probe.width > 0) {
-      parameters.mp6531 = probe.width;
+      parameters.mp6531 = std::max(probe.width, probe.widthY);  // no side may be nearer than it is believed
       parameters.contactRadius1 = probe.width / 2 - probe.pretravel;
       parameters.contactRadius2 = probe.widthY / 2 - probe.pretravel;
     }
