@@ -99,6 +99,23 @@ TEST(Cycle453, CompensatesWhatTheKinematicsCannot) {
   EXPECT_EQ(cleared.outcome.files.at("MACHINE.KCO"), gridTable({-60, 0, 60}, {0, 90, 180, 270}).table().bytes());
 }
 
+/// On the way to the first position the axes turn one after the other about the sphere, the second of them with the
+/// tool already leaning.
+TEST(Cycle453, TurnsEveryAxisAboutTheSphere) {
+  for (const auto& [build, tilting] : {std::pair(0, 'A'), std::pair(1, 'B'), std::pair(2, 'A')}) {
+    SCOPED_TRACE(builds()[static_cast<std::size_t>(build)].machine);
+    SphereWorld world(builds()[static_cast<std::size_t>(build)]);
+    const TableFolder folder(world.bench);
+    folder.put("MACHINE.KCO", fmt::format("BEGIN MACHINE.KCO MM\n"
+                                          "NR    {}         C         DX        DY        DZ\n"
+                                          "0     -50       200       0         0         0\n"
+                                          "[END]\n",
+                                          tilting));
+    const Ran ran = world.bench.run(probe(453, words453(0)));
+    EXPECT_TRUE(ended(ran)) << ran.why();
+  }
+}
+
 TEST(Cycle453, SetsThePreset) {
   SphereWorld world(builds()[1]);
   world.bench.setup.beliefs.presets.front().origin += Vector3(0.3, 0.2, -0.1);

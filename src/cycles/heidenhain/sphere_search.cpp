@@ -116,8 +116,8 @@ void SphereSearch::carryOut(const machine::AxisPositions& target, const std::vec
   control::Target turned;
   for (const std::size_t axis : axes)
     turned.rotary[axis] = target[axis] - channel_.rotaryOffset[axis];
-  const double height = prober_.position().z() - prober_.probe().ballRadius;
   lookAlongTool();
+  const double height = prober_.position().z() - prober_.probe().ballRadius;
   const Scoped reach(channel_.toolVector, Vector3(channel_.toolVector + height * alongTool()));
   const Scoped held(channel_.holdTip, true);
   const Scoped coarse(channel_.pathTolerance, indexingTolerance);
