@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+#include <sstream>
 #include <string>
 
 #include "cycles_heidenhain/worlds.hpp"
@@ -124,6 +126,50 @@ Ran printedRun(ControlKind kind, DialogLanguage language, int logParameter = 1) 
 TEST(MeasuringLog, IsLaidOutAsPrinted) {
   for (const ControlKind kind : {ControlKind::TNC640, ControlKind::iTNC530})
     EXPECT_EQ(printedRun(kind, DialogLanguage::English).log("TCHPR421.TXT"), english);
+}
+
+/// Also where a limit has a sign or many digits, in inches too.
+TEST(MeasuringLog, HasAllValuesInOneColumn) {
+  for (const ControlKind kind : {ControlKind::TNC640, ControlKind::iTNC530}) {
+    for (const bool inch : {false, true}) {
+      for (const double x : {-50.0, -312.0, 312.0}) {
+        SCOPED_TRACE(fmt::format("inch {} X{}", inch, x));
+        const double unit = inch ? 25.4 : 1;
+        Bench bench(kind);
+        bench.preset(1, {0, 0, -400});
+        bench.part(simulation::Ring(6, 40, -40), pose({x, -65, -400}));
+        bench.probeOf(100, 1);
+        const Ran ran = bench.run(probe(421, {{273, x / unit},
+                                              {274, -65 / unit},
+                                              {262, 12 / unit},
+                                              {325, 0},
+                                              {247, 90},
+                                              {261, -5 / unit},
+                                              {320, 0},
+                                              {260, 20 / unit},
+                                              {301, 0},
+                                              {275, 12.1 / unit},
+                                              {276, 11.9 / unit},
+                                              {279, 0.1 / unit},
+                                              {280, 0.1 / unit},
+                                              {281, 1},
+                                              {309, 0},
+                                              {330, 0}}),
+                                  inch ? "INCH" : "MM");
+        ASSERT_TRUE(ran.finished()) << ran.why();
+        std::istringstream log(ran.log("TCHPR421.TXT"));
+        std::set<std::size_t> ends;
+        int values = 0;
+        for (std::string line; std::getline(log, line);) {
+          if (line.empty() || line.back() < '0' || line.back() > '9' || line.find('.') == std::string::npos) continue;
+          ends.insert(line.size());
+          ++values;
+        }
+        EXPECT_EQ(values, 16);
+        EXPECT_EQ(ends.size(), 1U) << ran.log("TCHPR421.TXT");
+      }
+    }
+  }
 }
 
 TEST(MeasuringLog, SpeaksTheLanguageOfTheControl) {

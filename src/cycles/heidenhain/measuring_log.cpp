@@ -62,7 +62,7 @@ std::string logText(Context& context, const Inspection& inspection) {
   for (const LogLine& line : inspection.further)
     add(further, line.label, line.value, line.kind);
 
-  // Values end in one column throughout, 8 characters right of the longest label.
+  // Values end in one column throughout, 8 characters right of the longest label, further where a value needs it.
   constexpr std::size_t shortestLabel = 43, valueWidth = 8;
   std::size_t indent = 0, labelWidth = shortestLabel, headWidth = 0;
   for (const Section* section : {&nominal, &limits, &actual, &deviations}) {
@@ -82,19 +82,26 @@ std::string logText(Context& context, const Inspection& inspection) {
   text += head(frame.time) + fmt::format("{}:{:02}:{:02}\n", time.tm_hour, time.tm_min, time.tm_sec);
   text += head(frame.program) + control.programPath + "\n";
   const int decimals = control.mainUnit == 1 ? 4 : 5;
+  struct Row {
+    std::string label, value;
+  };
+  std::vector<std::pair<const Section*, std::vector<Row>>> filled;
+  std::size_t end = indent + labelWidth + valueWidth;
   for (const Section* section : {&nominal, &limits, &actual, &deviations, &further}) {
     if (section->lines.empty()) continue;
-    text += fmt::format("{}\n", section->rule);
+    std::vector<Row>& rows = filled.emplace_back(section, std::vector<Row>()).second;
     const std::size_t left = std::max(indent, characterCount(section->title) + 1);
-    for (std::size_t i = 0; i < section->lines.size(); ++i) {
-      const LogLine& line = section->lines[i];
-      const double value = line.kind == ValueKind::Length ? line.value / control.mainUnit : line.value;
-      const std::string label = padded(i == 0 ? section->title : "", left) + line.label + ":";
-      const std::string number = formatFixed(value, line.kind == ValueKind::Length ? decimals : 4);
-      const std::size_t end = indent + labelWidth + valueWidth;
-      const std::size_t room = std::max(end - std::min(end, characterCount(label)), number.size() + 1);
-      text += fmt::format("{}{:>{}}\n", label, number, room);
+    for (const LogLine& line : section->lines) {
+      const bool length = line.kind == ValueKind::Length;
+      rows.push_back({padded(rows.empty() ? section->title : "", left) + line.label + ":",
+                      formatFixed(length ? line.value / control.mainUnit : line.value, length ? decimals : 4)});
+      end = std::max(end, characterCount(rows.back().label) + 1 + rows.back().value.size());
     }
+  }
+  for (const auto& [section, rows] : filled) {
+    text += fmt::format("{}\n", section->rule);
+    for (const Row& row : rows)
+      text += fmt::format("{}{:>{}}\n", row.label, row.value, end - characterCount(row.label));
   }
   text += amongStars(std::string(frame.end), capitals ? columns : characterCount(frame.end) + 42);
   return text;
