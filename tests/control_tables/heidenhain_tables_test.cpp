@@ -160,6 +160,12 @@ TEST(TypedTable, RefusesTheWrongKindOfTable) {
   ASSERT_TRUE(table);
   ASSERT_EQ(diagnostics.size(), 1U);
   EXPECT_THAT(diagnostics[0].message, HasSubstr("no column T"));
+  // Touch probes and presets have the same key.
+  diagnostics.clear();
+  const auto presets = TypedTable::parse("BEGIN TCHPROBE.TP MM\nNO   CAL_OF1\n1    +0.5\n[END]\n", "PRESET.PR",
+                                         presetColumns(), diagnostics);
+  ASSERT_EQ(diagnostics.size(), 1U);
+  EXPECT_THAT(diagnostics[0].message, HasSubstr("none of the columns"));
 }
 
 /// Random values of a table that is written, saved and read again: equal to the last digit the columns have.

@@ -63,6 +63,26 @@ Diagnostics TypedTable::check() const {
                            {}});
     return diagnostics;
   }
+  // Tables of different kinds may have the same key.
+  std::string_view missing;
+  for (const ColumnSpec& column : columns_) {
+    const std::string_view name = nameInFile(column.name());
+    if (name == table_.keyColumn().name) continue;
+    if (table_.hasColumn(name)) {
+      missing = {};
+      break;
+    }
+    if (missing.empty() && column.kind != CellKind::Text) missing = name;
+  }
+  if (!missing.empty()) {
+    diagnostics.push_back({Severity::Error,
+                           {table_.file(), 0, 0},
+                           fmt::format("the table has none of the columns that are read from it, such as {}", missing),
+                           {},
+                           "check that this is the right kind of table",
+                           {}});
+    return diagnostics;
+  }
   for (const std::string& row : table_.keys()) {
     for (const ColumnSpec& column : columns_) {
       if (column.kind == CellKind::Text) continue;
