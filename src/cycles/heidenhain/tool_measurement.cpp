@@ -263,7 +263,7 @@ double ToolMeasurement::toothLengthOffset() const {
   if (const auto entered = control.tables.tools.number(control.tool.row, "R-OFFS")) return *entered;
   const double pitch = std::min(2 * std::numbers::pi / teeth_, std::numbers::pi / 2);
   const double half = (axis_ == 0 ? probe_.size : probe_.size2) / 2;
-  const double flat = std::max(0.0, radius_ - column("R2"));
+  const double flat = std::clamp(radius_ - column("R2"), 0.0, radius_);
   return half + flat * (1 + std::cos(pitch)) / 2;
 }
 
