@@ -103,12 +103,13 @@ std::optional<SobolIndices> indicesOf(std::size_t column, const Rows& a, const R
   constexpr std::size_t fewest = 10;
   if (fa.size() < fewest) return std::nullopt;
   const double count = static_cast<double>(fa.size());
-  double mean = 0;
-  for (std::size_t i = 0; i < fa.size(); ++i)
-    mean += (fa[i] + fb[i]) / (2 * count);
-  double variance = 0;
-  for (std::size_t i = 0; i < fa.size(); ++i)
-    variance += (std::pow(fa[i] - mean, 2) + std::pow(fb[i] - mean, 2)) / (2 * count);
+  double mean = 0, variance = 0;
+  for (const std::vector<double>* values : {&fa, &fb})
+    for (const double value : *values)
+      mean += value / (2 * count);
+  for (const std::vector<double>* values : {&fa, &fb})
+    for (const double value : *values)
+      variance += (value - mean) * (value - mean) / (2 * count);
   if (!(variance > 0)) return std::nullopt;
   std::vector<double> first, total;
   for (std::size_t i = 0; i < fa.size(); ++i) {

@@ -370,11 +370,12 @@ void Search::sampleOpen() {
 /// of the parts, where things are farthest from the middle. False if one fails.
 bool Search::checkProven() {
   std::vector<const Part*> proven;
+  std::vector<double> ends;  // of the shares, one behind the other
   double total = 0;
   for (const Part& part : result_.parts) {
     if (part.verdict != Verdict::Proven) continue;
     proven.push_back(&part);
-    total += part.share;
+    ends.push_back(total += part.share);
   }
   if (proven.empty()) return true;
   constexpr std::uint64_t atOnce = 4096;
@@ -386,11 +387,12 @@ bool Search::checkProven() {
         return study::uniforms({options_.seed, number}, static_cast<std::uint32_t>(i))[0];
       };
       const bool onBorder = number % 2 == 1;
-      double where = draw(sides()) * (onBorder ? static_cast<double>(proven.size()) : total);
-      std::size_t place = 0;
-      while (place + 1 < proven.size() && where >= (onBorder ? 1 : proven[place]->share))
-        where -= onBorder ? 1 : proven[place]->share, ++place;
-      const Box& box = proven[place]->box;
+      // On borders any part as often, otherwise as often as its share says.
+      const double where = draw(sides());
+      const std::size_t place =
+          onBorder ? static_cast<std::size_t>(where * static_cast<double>(proven.size()))
+                   : static_cast<std::size_t>(std::ranges::upper_bound(ends, where * total) - ends.begin());
+      const Box& box = proven[std::min(place, proven.size() - 1)]->box;
       std::vector<double> values;
       for (std::size_t i = 0; i < sides(); ++i) {
         // On borders a third of the sides is at its lower end, a third at its upper one.

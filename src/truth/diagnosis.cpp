@@ -170,11 +170,11 @@ private:
 
   /// The motion on from its end, in the same direction.
   Motion beyond() const {
-    machine::AxisPositions to = motion_.to;
     const Vector3 way = tableFromSpindle(motion_.to) * shape_.tip - tableFromSpindle(motion_.from) * shape_.tip;
     const double factor = farthest / std::max(way.norm(), 1e-9);
-    for (std::size_t i = 0; i < truth_.machine.axes.size(); ++i)
-      to[i] += factor * (motion_.to[i] - motion_.from[i]);
+    machine::AxisPositions to;
+    std::ranges::transform(motion_.to.values, motion_.from.values, to.values.begin(),
+                           [&](double end, double start) { return end + factor * (end - start); });
     return {kinematics_, motion_.to, to, motion_.to, motion_.seconds, simulation::MotionProfile(farthest, 1, 1)};
   }
 

@@ -39,10 +39,10 @@ std::optional<records::TrueValue> trueValueOf(const ResultRecord& result, const 
 /// True if the table stood as it does at the reading 0 of all rotary axes: then its coordinates are the machine's.
 bool tableIsSquare(const control::CycleRecord& record, const machine::MachineDescription& machine) {
   for (const control::TouchRecord& touch : record.touches) {
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-      const bool rotary = machine.axes[i].kind == machine::AxisKind::Rotary;
-      if (touch.outcome == "touched" && rotary && std::abs(std::remainder(touch.latched[i], 360.0)) > 1e-9)
-        return false;
+    if (touch.outcome != "touched") continue;
+    for (std::size_t i = 0; const machine::Axis& axis : machine.axes) {
+      const double reading = touch.latched[i++];
+      if (axis.kind == machine::AxisKind::Rotary && std::abs(std::remainder(reading, 360.0)) > 1e-9) return false;
     }
   }
   return true;

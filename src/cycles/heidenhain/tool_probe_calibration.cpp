@@ -93,7 +93,7 @@ void Calibration::findTop() {
 /// Main axis, then the minor axis through the middle found in the main axis.
 Found Calibration::touchSquare() {
   Found found;
-  for (int axis = 0; axis < 2; ++axis) {
+  for (const int axis : {0, 1}) {
     const double below = side(axis, 1), above = side(axis, -1);
     found.middle[axis] = (below + above) / 2;
     found.half[axis] = (above - below) / 2 * std::cos(rotation_) - radius_;
@@ -128,7 +128,7 @@ void Calibration::findTipping() {
     return;
   }
   Vector2 slope;
-  for (int axis = 0; axis < 2; ++axis) {
+  for (const int axis : {0, 1}) {
     Vector2 offset = Vector2::Zero();
     offset[axis] = apart;
     const double there = prober_.touchTop(offset).tip[plane_.tool];

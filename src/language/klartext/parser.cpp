@@ -275,7 +275,7 @@ std::string BlockParser::meantKeyword() {
   std::size_t words = 1;
   for (std::size_t i = 0; i < 30; ++i) {
     const char c = lexer_.here(i);
-    if (isBlankOrReturn(c) && (written.empty() || written.back() == ' ' || ++words > 2)) break;
+    if (isBlankOrReturn(c) && ++words > 2) break;
     if (!isLetter(c) && !isBlankOrReturn(c)) break;
     written += isBlankOrReturn(c) ? ' ' : upper(c);
   }

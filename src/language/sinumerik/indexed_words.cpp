@@ -85,7 +85,6 @@ void BlockParser::parseSetting(std::string_view name, std::size_t start) {
   Word index;
   index.address = 1;
   if (cursor_.take('[')) {
-    index.column = static_cast<std::uint32_t>(cursor_.offset()) + 1;
     index.value = parseExpression();
     while (!failed_ && skipped && cursor_.take(','))
       parseExpression();
