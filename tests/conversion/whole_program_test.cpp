@@ -209,5 +209,22 @@ TEST(ConvertLogs, WritesThem) {
   EXPECT_NE(toKlartext(screen).text.find("Q281=+2 "), std::string::npos) << toKlartext(screen).text;
 }
 
+/// Two ways on which the same log was asked for meet before the cycle.
+TEST(ConvertLogs, KnowThemWhereWaysMeet) {
+  const auto there = [](const std::string& one, const std::string& other) {
+    return toKlartext(
+        fmt::format("G17 G90 G710\nT1 M6 D1\nG54\nG0 Z100\nIF R1==1\n{}\nG0 X3\nELSE\n{}\nENDIF\nG0 X0 Y0\n"
+                    "CYCLE978(0,,,1,0,8,8,1,1,1)\nM30\n",
+                    one, other));
+  };
+  const std::string file = "CYCLE150(0,1,\"TCHPR427\")", screen = "CYCLE150(31,0)", none = "CYCLE150(0,0)";
+  for (const auto& [asked, q281] : {std::pair(file, "Q281=+1 "), {screen, "Q281=+2 "}, {none, "Q281=+0 "}}) {
+    const conversion::Conversion same = there(asked, asked);
+    EXPECT_FALSE(lists(same, "CYCLE150")) << same.text;
+    EXPECT_NE(same.text.find(q281), std::string::npos) << same.text;
+  }
+  EXPECT_TRUE(lists(there(file, none), "CYCLE150"));
+}
+
 }  // namespace
 }  // namespace probewright::testing_support
