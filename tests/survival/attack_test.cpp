@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "survival/survival_bench.hpp"
 
@@ -75,6 +76,26 @@ TEST(Attack, ABarThatTheStylusMeetsOnItsWayToATouch) {
   for (const double x : {20.7, 21.5, 22.9})
     EXPECT_FALSE(isProven(survival, {x})) << x;
   EXPECT_TRUE(isProven(survival, {24}));
+}
+
+/// The last touch orients the spindle to its direction, which follows the measured angle of the part. Then the ball of
+/// an arm, 40 mm from the axis of the spindle, stands 0.2 mm beside a post.
+TEST(Attack, AStarThatTurnsWithWhatIsMeasured) {
+  const std::string program = klartext(
+      "TCH PROBE 400 BASIC ROTATION ~\nQ263=-25 ~\nQ264=-30 ~\nQ265=+25 ~\nQ266=-30 ~\nQ272=+2 ~\nQ267=+1 ~\n"
+      "Q261=+15 ~\nQ320=+3 ~\nQ260=+20 ~\nQ301=+1 ~\nQ307=+0 ~\nQ305=+1\n"
+      "TCH PROBE 427 MEASURE COORDINATE ~\nQ263=+0 ~\nQ264=-30 ~\nQ261=+15 ~\nQ320=+3 ~\nQ272=+2 ~\nQ267=+1 ~\n"
+      "Q260=+20 ~\nQ281=+0 ~\nQ288=+0 ~\nQ289=+0 ~\nQ309=+0 ~\nQ330=+0\n"
+      "L Z+50 R0 FMAX\nL X+0 Y+0 R0 FMAX M91\nL X+100 R0 FMAX M91\n");
+  const std::string setup = plateSetup("TNC640", "orient = true\nstar_arm = 20\ntip_offset = [0, -20]\n",
+                                       fixture("post", {140, 7.2, -500}, {10, 8, 80}));
+  const auto clampings = clamped(setup, program, {"part.pose.c=3"});
+  const double limit = std::asin(0.2 / 40) * 180 / std::numbers::pi;
+  EXPECT_FALSE(clampings->run(std::vector<double>{0.99 * limit}, 1).failure);
+  EXPECT_TRUE(clampings->run(std::vector<double>{1.01 * limit}, 1).failure);
+  const auto verdict = [&](double half) { return proveBox(*clampings, {{-half}, {half}}).verdict; };
+  EXPECT_EQ(verdict(0.1 * limit), Verdict::Proven);
+  EXPECT_EQ(verdict(1.05 * limit), Verdict::Undecided);
 }
 
 /// The touch on a disc of 80 mm leaves its face in one corner of the box only: where x and y both shift by more
