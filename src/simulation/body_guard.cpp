@@ -174,7 +174,7 @@ std::optional<BodyHit> BodyGuard::approach(Pair& pair, const Motion& motion, dou
   for (;;) {
     if (stop.stop_requested()) throw SearchStopped{before};
     pair.known.push_back({fraction, apart});
-    if (apart > pair.way * (end - fraction) || fraction >= end) return std::nullopt;
+    if (apart > pair.way * (end - fraction)) return std::nullopt;
     before = fraction;
     fraction = std::min(end, fraction + std::max(apart / pair.way, step));
     apart = gapAt(fraction, pair.way * (end - fraction) + shortestStep);

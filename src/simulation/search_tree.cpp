@@ -219,8 +219,8 @@ struct SearchTree::Walks {
       return result;
     }
     PROBEWRIGHT_INLINE void pack(const std::array<std::uint32_t, kWidth>& x, unsigned set, std::uint32_t* to) {
-      for (std::size_t k = 0; k < kWidth; ++k)
-        to[k] = x[kOrder[set][k]];
+      for (const auto lane : kOrder[set])
+        *to++ = x[lane];
     }
 #include "simulation/search_walk.inc"
   };

@@ -280,6 +280,15 @@ TEST(Check, KnowsToolsAndPresetsOfASetup) {
   EXPECT_THAT(klartext.errors, Not(HasSubstr("no tool 1\n")));
   EXPECT_THAT(klartext.errors, Not(HasSubstr("no tool 0\n")));
   EXPECT_THAT(klartext.errors, Not(HasSubstr("no preset 3\n")));
+  // A preset may be called by what the table says of it.
+  std::filesystem::create_directory(folder / "tables");
+  folder.file("tables/PRESET.PR", "BEGIN PRESET.PR MM\nNO  DOC   X   Y   Z\n3   VISE  +0  +0  +0\n[END]\n");
+  const std::string named = folder.file("named.toml", "[control]\ntype = \"TNC640\"\ntables = \"tables\"\n" + tool);
+  const auto select = [&](const std::string& name) {
+    return check("b.h", "0 BEGIN PGM B MM\n1 PRESET SELECT \"" + name + "\"\n2 END PGM B MM\n", named).errors;
+  };
+  EXPECT_THAT(select("VISE"), Not(HasSubstr("preset")));
+  EXPECT_THAT(select("VICE"), HasSubstr("b.h:2:18: error: the setup has no preset VICE\n"));
   const std::string calls = "T1 D1\nM6\nT=\"PROBE\"\nM6\nT8\nM6\nT=\"NOTHERE\"\nM6\nT0\nM6\nT=R1\nM6\nM30\n";
   const Answer sinumerik = check("a.mpf", calls, siemens);
   EXPECT_EQ(sinumerik.exit, 2);

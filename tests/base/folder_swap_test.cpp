@@ -82,6 +82,27 @@ TEST(FolderLock, LeavesLinksOfOthersAsTheyAre) {
   fs::remove_all(parent);
 }
 
+/// A folder that others may read, or nobody else, stays so; so do files of others in it.
+TEST(SwapFiles, KeepsWhoMayReadTheFolder) {
+  for (const auto mode : {fs::perms(0755), fs::perms(0700), fs::perms(0770)}) {
+    std::string pattern = (fs::path(::testing::TempDir()) / "probewright-swap-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
+    const fs::path parent = pattern, folder = parent / "out";
+    fs::create_directories(folder);
+    ASSERT_TRUE(writeFileAtomically(folder / "mine.txt", "stays"));
+    fs::permissions(folder, mode);
+    {
+      const auto lock = FolderLock::take(folder, {}, [](const fs::path&) { return false; });
+      ASSERT_TRUE(lock);
+      ASSERT_TRUE(swapFiles(*lock, {{"new.txt", [](const Sink& sink) { sink("comes"); }}}, {}));
+    }
+    EXPECT_EQ(fs::status(folder).permissions(), mode);
+    EXPECT_TRUE(fs::exists(folder / "mine.txt"));
+    EXPECT_TRUE(fs::exists(folder / "new.txt"));
+    fs::remove_all(parent);
+  }
+}
+
 /// Whoever has to wait is told so once, and may give up.
 TEST(FolderLock, WaitsForAnotherRunUntilItIsToStop) {
   std::string pattern = (fs::path(::testing::TempDir()) / "probewright-swap-XXXXXX").string();

@@ -271,6 +271,9 @@ TEST(ConvertJobs, KeepSharedParametersThatCyclesWouldOverwrite) {
     put(folder, files);
     EXPECT_FALSE(converted(folder, files, ProgramLanguage::Klartext, ".H").has_value()) << parameter;
   }
+  const conversion::Conversion refused = toKlartext(remark + "G17 G90 G71\nR100=1\nM30\n");
+  ASSERT_EQ(refused.notCarriedOver.size(), 1U) << refused.text;
+  EXPECT_EQ(refused.notCarriedOver[0].advice, "take another one: R0 to R99, R500 to R1599 or R2000 to R2899");
 }
 
 /// The circle centre and the direction of arcs that a called program has set stay in effect in its caller.

@@ -206,6 +206,27 @@ TEST(ConvertRotaryTable, TellsThatAnEndlessAxisMayTurnTheOtherWayRound) {
     SCOPED_TRACE(blocks);
     EXPECT_EQ(told(toKlartext(fmt::format("G17 G90 G710\nT1 M6 D1\nG54\nG0 Z100\n{}M30\n", blocks))), differs ? 1 : 0);
   }
+  // Where cycle 403 leaves an axis only the part knows.
+  const std::string align = probe(403, {{263, 0},
+                                        {264, 0},
+                                        {265, 50},
+                                        {266, 0},
+                                        {272, 2},
+                                        {267, 1},
+                                        {261, -8},
+                                        {320, 3},
+                                        {260, 20},
+                                        {301, 0},
+                                        {312, 0},
+                                        {337, 0},
+                                        {305, 1},
+                                        {303, 1},
+                                        {380, 0}});
+  for (const char axis : {'A', 'B', 'C'}) {
+    const std::string move = fmt::format("L {}+20 FMAX\n", axis);
+    EXPECT_EQ(told(toSinumerik(klartextProgram(move))), 0) << axis;
+    EXPECT_EQ(told(toSinumerik(klartextProgram(align + move))), 1) << axis;
+  }
 }
 
 TEST(ConvertRotaryTable, CorrectsItsZeroWithCycle1410) {

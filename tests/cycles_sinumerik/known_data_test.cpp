@@ -38,7 +38,7 @@ TEST(KnownData, DataThatActReadAsTheyAct) {
     return event.text.find("reads as 0") != std::string::npos;
   };
   EXPECT_TRUE(std::ranges::none_of(bench.control.journal.events, warned));
-  measureBore(bench, {}, "R1=$TC_DP3[1,1]\n");
+  measureBore(bench, {}, "R1=$TC_DP3[1,1] R2=$TC_DP13[1,1]\n");
   EXPECT_TRUE(std::ranges::none_of(bench.control.journal.events, warned));
   measureBore(bench, {}, "R1=$TC_DP3[9,1]\n");
   EXPECT_TRUE(std::ranges::any_of(bench.control.journal.events, warned)) << "there is no tool 9";

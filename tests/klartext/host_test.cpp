@@ -278,6 +278,24 @@ TEST(Host, CompensatedArcsKeepTheirDistance) {
             RunEnd::Alarm);
 }
 
+/// An arc that begins it is entered beside its start.
+TEST(Host, RadiusCompensationBeginsWithAnArc) {
+  for (const auto& [side, radius] : {std::pair("RR", 35.0), {"RL", 25.0}}) {
+    World world;
+    expectFinished(world.run(
+        fmt::format("TOOL CALL 5 Z\nL X+30 Y+0 Z+0 R0 F100\nCC X+0 Y+0\nC X+0 Y+30 DR+ {}\nL X-20\nL Y+60 R0", side)));
+    const auto path = world.path();
+    EXPECT_TRUE(near(path[0], {30, 0, 0}));
+    EXPECT_TRUE(near(path[1], {radius, 0, 0}));
+    const auto end = std::ranges::find_if(path, [&](const Vector3& p) { return near(p, {0, radius, 0}); });
+    ASSERT_NE(end, path.end());
+    ASSERT_GT(end - path.begin(), 10);
+    for (auto at = path.begin() + 1; at != end; ++at)
+      EXPECT_NEAR(at->norm(), radius, 1e-9);
+    EXPECT_TRUE(near(path[path.size() - 2], {-20, radius, 0}));
+  }
+}
+
 /// An arc that ends the compensation runs on the circle of its block, in both directions and on both sides.
 TEST(Host, ArcsWithoutRadiusCompensationRunOnTheirCircle) {
   for (const char* side : {"RL", "RR"}) {

@@ -15,6 +15,7 @@
 namespace probewright::reports {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ContainsRegex;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
@@ -191,6 +192,25 @@ TEST(TruthSummary, NamesEightNumbersOfAnEntry) {
   };
   EXPECT_EQ(namesOf(8), std::pair(std::vector<int>{1, 2, 3, 4, 5, 6, 7, 8}, false));
   EXPECT_EQ(namesOf(9), std::pair(std::vector<int>{9, 8, 7, 6, 5, 4, 3, 2}, true));
+}
+
+/// Without a limit the nearest approach is told; with one only what came nearer than that.
+TEST(Summary, TellsTheNearestApproach) {
+  const TruthStyle style{.line = [](const std::string& text) { return text; },
+                         .place = [](const SourcePlace& place) { return place.file; }};
+  records::Clearance clearance;
+  for (const double distance : {7.0, 2.0, 5.0}) {
+    records::ClearanceSpan span;
+    span.distance = distance;
+    span.part = "stylus";
+    span.solid = "vice";
+    clearance.spans.push_back(span);
+  }
+  EXPECT_THAT(clearanceText(clearance, style), AllOf(HasSubstr("2.0 mm"), HasSubstr("vice"), Not(HasSubstr("5.0"))));
+  clearance.limit = 6;
+  EXPECT_THAT(clearanceText(clearance, style), AllOf(HasSubstr("2.0 mm"), HasSubstr("5.0 mm"), Not(HasSubstr("7.0"))));
+  clearance.limit = 1;
+  EXPECT_EQ(clearanceText(clearance, style), "");
 }
 
 }  // namespace

@@ -55,6 +55,10 @@ TEST(SinumerikCorner, RoundingBetweenLines) {
 
 TEST(SinumerikCorner, RoundingBetweenLineAndArc) {
   World world;
+  // The arc begins as far to the right of the origin as its centre lies to the left.
+  const Vector3 opposite(-10, 0, 0), inside(-10 + std::sqrt(19.0 * 19.0 - 1.0), 1, 0);
+  expectArc(pathOf(world, "G1 X10 RND=1\nG3 X-30 Y0 CR=20\n"), opposite + 20 * (inside - opposite) / 19, {-30, 0, 0},
+            opposite, 20);
   const auto path = pathOf(world, "G1 X20 RND=4\nG2 X40 Y0 CR=10\n");
   const Vector3 hub(30, 0, 0), centre(30 - std::sqrt(14.0 * 14.0 - 16.0), 4, 0);
   expectArc(path, {centre.x(), 0, 0}, hub + 10 * (centre - hub) / 14, centre, 4);

@@ -144,6 +144,13 @@ TEST(SinumerikValues, ArraysHaveOneTo65536Elements) {
   EXPECT_EQ(World().alarm("DEF INT SIZE=256\nDEF BOOL AA[SIZE,SIZE+1]\n"), "12200");
 }
 
+TEST(SinumerikValues, BlanksMayStandBeforeAnIndex) {
+  World world;
+  world.run("DEF REAL AA[3]\nAA[1]=7\nR1=AA [1]+1 R2=$TC_DP3\t[1,2]\n");
+  EXPECT_EQ(world.r(1), 8);
+  EXPECT_EQ(world.r(2), 90);
+}
+
 TEST(SinumerikFlow, LoopsAndBranches) {
   World world;
   world.run(

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <tuple>
 
@@ -181,6 +183,27 @@ TEST(Sobol, FindsTheIndicesOfIshigamisFunction) {
     EXPECT_LT(y.indices[i]->firstHalfWidth, 0.04);
   }
   EXPECT_EQ(y.indices[3]->total, 0);
+}
+
+/// Of an interrupted study nobody knows how much is left unless what is announced is what is done.
+TEST(Sobol, AnnouncesAsManyRunsAsItMakes) {
+  Study study = studyOf({source("a", Normal{0, 1}), source("b", Normal{0, 2})}, 100);
+  study.sensitivity = Sensitivity::Sobol;
+  study.sensitivityTrials = 64;
+  std::map<std::string, std::pair<std::uint64_t, std::uint64_t>> last;
+  StudyRun run;
+  run.report = [&](const std::string& phase, std::uint64_t done, std::uint64_t of) {
+    EXPECT_LE(done, of) << phase;
+    last[phase] = {done, of};
+  };
+  runStudy(study, {}, modelOf(sum), run);
+  // Two sources and the noise: 64 * (3 + 2) runs, beside the 100 trials.
+  std::vector<std::uint64_t> made;
+  for (const auto& [phase, progress] : last) {
+    EXPECT_EQ(progress.first, progress.second) << phase;
+    made.push_back(progress.second);
+  }
+  EXPECT_NE(std::ranges::find(made, 320U), made.end());
 }
 
 /// A constant adds nothing to the variance, however large it is beside it.

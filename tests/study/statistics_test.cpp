@@ -69,6 +69,19 @@ TEST(Distributions, HaveTheMomentsThatTheySay) {
   }
 }
 
+/// The value of a score lies at the same place of its distribution as the score in the standard normal distribution.
+TEST(Distributions, HaveAValueForEachScore) {
+  const auto below = [](double score) { return std::erfc(-score / std::sqrt(2.0)) / 2; };
+  for (const double score : {-1.7, -0.4, 0.0, 0.9, 2.1}) {
+    EXPECT_NEAR(Distribution::make(Normal{1, 2})->valueOfScore(score), 1 + 2 * score, 1e-12);
+    EXPECT_NEAR(Distribution::make(Uniform{2, 6})->valueOfScore(score), 2 + 4 * below(score), 1e-12);
+    EXPECT_NEAR(Distribution::make(UShaped{-1, 3})->valueOfScore(score),
+                1 - 2 * std::cos(std::numbers::pi * below(score)), 1e-12);
+    const double cut = Distribution::truncated(Normal{1, 2}, {0, 4})->valueOfScore(score);
+    EXPECT_NEAR((below((cut - 1) / 2) - below(-0.5)) / (below(1.5) - below(-0.5)), below(score), 1e-9);
+  }
+}
+
 TEST(Distributions, RefuseWhatIsNone) {
   EXPECT_FALSE(Distribution::make(Normal{0, 0}));
   EXPECT_FALSE(Distribution::make(Uniform{1, 1}));

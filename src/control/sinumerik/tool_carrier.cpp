@@ -107,8 +107,8 @@ void loadCarrier(DataStore& store, int number, const ToolCarrier& carrier) {
     for (int i = 0; i < 3; ++i)
       put(first + i, vector[i] == 0 ? 0.0 : vector[i]);
   };
-  for (int vector = 0; vector < 4; ++vector)
-    putVector(firstDatumOfOffset(vector), carrier.offset[static_cast<std::size_t>(vector)]);
+  for (int vector = 0; const Vector3& offset : carrier.offset)
+    putVector(firstDatumOfOffset(vector++), offset);
   for (int which = 0; which < 2; ++which) {
     const auto place = static_cast<std::size_t>(which);
     putVector(firstDatumOfAxis(which), carrier.axis[place]);
