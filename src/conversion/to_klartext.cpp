@@ -280,6 +280,7 @@ void ToKlartext::returnEarly() {
 void ToKlartext::toolCall(const Block& block, const ToolCall& call) {
   pendingTool_ =
       call.name.present() ? formulas_.formula(block, call.name) : formulas_.unsignedValue(quantity(block, call.number));
+  hasTool_ = isTool(block, call);
   if (!changesTool_) changeTool();
 }
 
@@ -368,6 +369,12 @@ void ToKlartext::modal(const Block& block, const Modal& modal) {
   } else if (name == "D" && words.size() == 1) {
     const Quantity edge = quantity(block, words[0].value);
     withoutLength_ = edge.isNumber() ? std::optional(edge == 0) : std::nullopt;
+    if (!(edge == 0) && hasTool_ != std::optional(true)) {
+      out_.listOnce(block,
+                    "D: a SINUMERIK stops here (alarm 17180) if no tool is in the spindle, the program that is written "
+                    "goes on",
+                    "call the tool before its edge", Severity::Note);
+    }
     if (!(edge == 1 || edge == 0)) out_.lose(block, fmt::format("D{}", sinumerikText(edge)));
   } else {
     throw NotCarriedOver(fmt::format("{} has no twin in Klartext", name), "write it by hand");

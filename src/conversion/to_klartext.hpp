@@ -48,6 +48,8 @@ private:
   void instruction(const language::Block& block, const language::Instruction& instruction);
   void toolCall(const language::Block& block, const language::ToolCall& call);
   void changeTool();
+  /// False of T0, which leaves the spindle empty.
+  static bool isTool(const language::Block& block, const language::ToolCall& call);
   void modal(const language::Block& block, const language::Modal& modal);
   /// True if the word or cycle says how a path is travelled or shown, not where it leads: it is left out. A note says
   /// so, once a word, where Klartext has words of its own for that.
@@ -72,6 +74,7 @@ private:
     std::set<int> selected;  ///< zero offsets that were selected: the preset table has their rows
     std::optional<MeasuringTask::Log> log = MeasuringTask::Log::None;
     std::optional<bool> withoutLength = false;  ///< D0 is in effect
+    std::optional<bool> hasTool = false;        ///< a tool other than 0 is in the spindle, or comes next
     bool operator==(const Modes&) const = default;
   };
   /// Follows all ways through the program; where several meet, `entries_` has what all of them agree on.
@@ -293,7 +296,8 @@ private:
 
   // What the whole program tells.
   std::optional<bool> withoutLength_ = false;  ///< D0 is in effect; empty: that depends on the way
-  bool movesBeforeUnit_ = false;               ///< something moves before the block that selects inches
+  std::optional<bool> hasTool_ = false;  ///< a tool is in the spindle, or comes next; empty: that depends on the way
+  bool movesBeforeUnit_ = false;         ///< something moves before the block that selects inches
   FlowGraph graph_;
   std::optional<RoundedValues> rounded_;
   std::map<std::uint64_t, std::string> labels_;  ///< by the block's offset, where jumps and repetitions lead to

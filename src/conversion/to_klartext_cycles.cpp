@@ -10,6 +10,7 @@
 #include "conversion/sinumerik_formulas.hpp"
 #include "conversion/sinumerik_tasks.hpp"
 #include "conversion/to_klartext.hpp"
+#include "conversion/touch_places.hpp"
 #include "cycles/catalogue.hpp"
 
 /// Measuring cycles of SINUMERIK programs as touch probe cycles.
@@ -308,6 +309,7 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
   const Place start = calibrates ? Place{} : here();
   MeasuringTask task = sinumerikTask(call, start, ballRadius_, losses);
   requireReach(block, task);
+  noteTouchPlaces(out_, block, task);
   const bool turns = task.correction == Correction::Rotation || task.correction == Correction::RotaryAxis;
   if (turns && activeRow_ && task.row == *activeRow_) task.active = true;
   task.fromUnturned = std::exchange(unturned_, false) && turns;
@@ -354,6 +356,8 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
   const bool measuresFirst = safe && !elder && (!restorable || showsInPreset);
   if (measuresFirst) {
     line("; THE SAFE AREA FIRST");
+    out_.listOnce(block, "S_TSA: this feature is touched twice, to compare with the safe area and to correct",
+                  "leave the correction to a second call if each touch counts", Severity::Note);
     MeasuringTask inspection = task;
     inspection.correction = Correction::None;
     const Results found =
@@ -374,6 +378,8 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
     results = heidenhainResults(writeTask(inspection), task);
   } else {
     if (measuresBefore) {  // cycle 419 has no results
+      out_.listOnce(block, "this surface is touched twice: cycle 419, which corrects the preset, has no results",
+                    "read no results after it if each touch counts", Severity::Note);
       MeasuringTask inspection = task;
       inspection.correction = Correction::None;
       results = heidenhainResults(writeTask(inspection), task);

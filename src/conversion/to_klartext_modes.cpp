@@ -102,6 +102,10 @@ void ToKlartext::followTransform(const Block& block, const Transform& transform,
   }
 }
 
+bool ToKlartext::isTool(const Block& block, const ToolCall& call) {
+  return call.name.present() || literalOf(block, call.number) != std::optional(0.0);
+}
+
 void ToKlartext::follow(const Block& block, Modes& modes) const {
   for (const Instruction& instruction : block.instructions) {
     if (const auto* modal = std::get_if<Modal>(&instruction)) {
@@ -125,6 +129,8 @@ void ToKlartext::follow(const Block& block, Modes& modes) const {
         const auto edge = literalOf(block, block.words[modal->words.first].value);
         modes.withoutLength = edge ? std::optional(*edge == 0) : std::nullopt;
       }
+    } else if (const auto* tool = std::get_if<ToolCall>(&instruction)) {
+      modes.hasTool = isTool(block, *tool);
     } else if (const auto* move = std::get_if<Move>(&instruction)) {
       if (move->kind != MoveKind::Modal) modes.motion = move->kind;
       if (move->compensation != RadiusCompensation::Unchanged) {
@@ -162,6 +168,7 @@ bool ToKlartext::agree(Modes& with, const Modes& other) {
   std::erase_if(with.selected, [&](int row) { return !other.selected.contains(row); });
   meet(with.log, other.log);
   meet(with.withoutLength, other.withoutLength);
+  meet(with.hasTool, other.hasTool);
   return !(with == before);
 }
 
@@ -267,6 +274,7 @@ void ToKlartext::surveyModes() {
   if (job_.called && count > 0) {
     meet(first);
     first.row.reset();
+    first.hasTool = true;  // of the caller
     doubtful[0] = true;
   }
   entries_ = modesWhereWaysMeet<Modes>(graph_, next, followBlock, agree, first, doubtful);
@@ -281,7 +289,7 @@ bool ToKlartext::isNeutral(const Block& block) const {
   modes.rotation = 0.0123456789;
   modes.row = -1;
   for (const bool incremental : {false, true}) {
-    modes.incremental = modes.withoutLength = incremental;
+    modes.incremental = modes.withoutLength = modes.hasTool = incremental;
     Modes left = modes;
     follow(block, left);
     if (!(left == modes)) return false;
@@ -344,6 +352,7 @@ void ToKlartext::adopt(const Block& block) {
   activeRow_ = modes.row;
   selectedRows_ = modes.selected;
   withoutLength_ = modes.withoutLength;
+  hasTool_ = modes.hasTool;
   frame_ = {.known = modes.shift.has_value(),
             .shift = {},
             .rotation = modes.rotation ? std::optional(Quantity(*modes.rotation)) : std::nullopt};

@@ -415,6 +415,11 @@ bool ToSinumerik::leavesOut(const Block& block, const Command& command) {
     leaves = word == "FEED" || word == "S-PULSE" || word == "ACC";
     name += fmt::format(" {}", word);
   }
+  if (kind == ToolDefinition && command.words.count == 1) {
+    out_.listOnce(block, "TOOL DEF prepares the tool that comes next, which changes no measurement: it is left out",
+                  "program T ahead of M6 if the magazine needs it", Severity::Note);
+    return true;
+  }
   if (!leaves) return false;
   out_.leaveOut(block, name, "SINUMERIK");
   return true;

@@ -8,6 +8,7 @@
 #include "conversion/heidenhain_tasks.hpp"
 #include "conversion/sinumerik_tasks.hpp"
 #include "conversion/to_sinumerik.hpp"
+#include "conversion/touch_places.hpp"
 #include "cycles/catalogue.hpp"
 #include "cycles/heidenhain/call_rules.hpp"
 #include "cycles/heidenhain/registry.hpp"
@@ -118,6 +119,7 @@ void ToSinumerik::cycle(const Block& block, const CycleCall& cycle) {
   if (log == MeasuringTask::Log::Screen) out_.line("CYCLE150(31,0)");
   Place found;
   for (MeasuringTask each : tasks) {
+    noteTouchPlaces(out_, block, each);
     if (!each.answers) countFromNewOrigin(tasks.front(), found, each);
     const Feature what = each.feature;
     if (what == Feature::HolePair || what == Feature::SpigotPair || what == Feature::BoltCircle ||

@@ -119,6 +119,7 @@ TEST_P(AnyWorld, MeasuresAndCorrectsTheSame) {
     EXPECT_TRUE(sameOrigin(original, there));
     EXPECT_TRUE(sameEnd(original, there));
     EXPECT_TRUE(sameTool(original, there));
+    EXPECT_TRUE(touchesAgreeOrToldOf(original, there));
 
     const Twin back = withoutVerdict(runConverted(there, part));
     if (setting.control == ControlKind::iTNC530 && !back.lost.empty()) {

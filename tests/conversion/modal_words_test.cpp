@@ -172,5 +172,35 @@ TEST(ConvertCalls, NameProgramsWhoseNamesMeanSomethingElse) {
         << name;
 }
 
+/// D without a tool stops a SINUMERIK only.
+TEST(ConvertModalWords, TellThatAnEdgeNeedsATool) {
+  const auto tells = [](const std::string& blocks) {
+    const Twin original = runSinumerik("G17 G90 G710 G54\n" + blocks + "G0 X5\nM30\n", table());
+    const Twin there = runConverted(original, table());
+    EXPECT_TRUE(ranWhole(there));
+    const bool told = std::ranges::any_of(
+        there.notes, [](const Diagnostic& each) { return each.message.find("17180") != std::string::npos; });
+    EXPECT_EQ(told, !original.finished) << blocks << original.why;
+    if (!original.finished) {
+      EXPECT_THAT(original.why, HasSubstr("17180"));
+    }
+    return told;
+  };
+  for (const char* blocks : {"D1\n", "D1\nT1 M6 D1\n", "T1 M6 D1\nT0\nM6\nD1\n", "SUPA G0 Z0 D0\nD1\nT1 M6\n",
+                             "IF R1>0\nT1 M6\nENDIF\nD1\n"})
+    EXPECT_TRUE(tells(blocks)) << blocks;
+  for (const char* blocks : {"T1 M6 D1\n", "T1\nD1\nM6\n", "SUPA G0 Z0 D0\nT1 M6\nD1\n",
+                             "IF R1>0\nT1 M6\nELSE\nT1 M6\nENDIF\nD1\n", "T0\nM6 D0\nT1 M6\nD1\n"})
+    EXPECT_FALSE(tells(blocks)) << blocks;
+}
+
+/// TOOL DEF prepares a tool; only dimensions that older programs give with it would change something.
+TEST(ConvertModalWords, LeaveOutWhichToolComesNext) {
+  const std::string blocks = "TOOL DEF 5\nL X+5 R0 FMAX\nTOOL DEF \"PROBE\"\nL Y+5 FMAX\n";
+  EXPECT_TRUE(driveAlike(klartextProgram(blocks), ProgramLanguage::Klartext));
+  EXPECT_THAT(toSinumerik(klartextProgram(blocks)).text, Not(HasSubstr("NOT CARRIED OVER")));
+  EXPECT_THAT(toSinumerik(klartextProgram("TOOL DEF 5 L+10 R+3\n")).text, HasSubstr("NOT CARRIED OVER"));
+}
+
 }  // namespace
 }  // namespace probewright::testing_support

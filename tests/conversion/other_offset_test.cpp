@@ -124,10 +124,10 @@ INSTANTIATE_TEST_SUITE_P(ConvertOffsets, OtherOffset, ::testing::ValuesIn(tasks(
 TEST(ConvertOffsets, TheLastOneIsCorrectedWhileItIsInEffectOnly) {
   const Task hole = tasks()[6];
   const auto lost = [&](const std::string& before) {
-    return toKlartext("G17 G90 G710\nT1\nM6 D1\nG54\nG0 Z120\n" + before + hole.start +
-                      sinumerikCall("CYCLE977", with(with(always, hole.words), {{"S_KNUM", 10099}, {"S_TSA", 2}})) +
-                      "G0 Z120\nM30\n")
-        .notCarriedOver;
+    return warningsOf(
+        toKlartext("G17 G90 G710\nT1\nM6 D1\nG54\nG0 Z120\n" + before + hole.start +
+                   sinumerikCall("CYCLE977", with(with(always, hole.words), {{"S_KNUM", 10099}, {"S_TSA", 2}})) +
+                   "G0 Z120\nM30\n"));
   };
   ASSERT_EQ(lost("").size(), 1U);
   EXPECT_THAT(lost("").front().message, HasSubstr("G599 is row 0"));

@@ -163,6 +163,7 @@ bool compare(const Twin& original, ProgramLanguage to, const PlantedPart& part, 
   EXPECT_FALSE(hasErrors(there.mistakes));
   bool listed = false, findsMore = false;
   for (const Diagnostic& each : there.notCarriedOver) {
+    if (each.message.find("touches lie at other places") != std::string::npos) continue;
     const bool note = each.severity == Severity::Note;
     EXPECT_THAT(each.message, HasSubstr(note ? "the one that is written measures" : "looks for the surface"));
     (note ? findsMore : listed) = true;

@@ -112,7 +112,7 @@ TEST(ConvertSinumerikCalls, NamesCalibrationsOfOneDirection) {
   const auto listed = [](int variant, int touches) {
     const Named ring = {{"S_MVAR", variant}, {"S_PRNUM", 1}, {"S_SETV", 40},     {"S_MA", 1},
                         {"S_FA", 5},         {"S_TSA", 8},   {"S_NMSP", touches}};
-    return !toKlartext(sinumerikProgram(sinumerikCall("CYCLE976", ring))).notCarriedOver.empty();
+    return !warningsOf(toKlartext(sinumerikProgram(sinumerikCall("CYCLE976", ring)))).empty();
   };
   for (const int variant : {1, 2, 3}) {
     EXPECT_FALSE(listed(variant, 1)) << variant;

@@ -80,6 +80,7 @@ TEST_P(AnyWorldOfSinumerik, MeasuresAndCorrectsTheSame) {
     EXPECT_TRUE(sameOrigin(original, there));
     EXPECT_TRUE(sameEnd(original, there));
     EXPECT_TRUE(sameTool(original, there));
+    EXPECT_TRUE(touchesAgreeOrToldOf(original, there));
     if (::testing::Test::HasFailure()) return;
   }
 }

@@ -38,7 +38,8 @@ inline conversion::Conversion toKlartext(const std::string& text) {
 struct Twin {
   std::string text;
   ProgramLanguage language = ProgramLanguage::Klartext;
-  Diagnostics lost;  ///< by the conversion that gave the text
+  Diagnostics lost;   ///< by the conversion that gave the text
+  Diagnostics notes;  ///< of the same
   bool finished = false;
   std::string why;
   Pose machineFromWorkpiece = Pose::Identity();
@@ -124,13 +125,24 @@ inline bool lists(const conversion::Conversion& conversion, std::string_view tex
   });
 }
 
+/// What counts for the exit code.
+inline Diagnostics warningsOf(const conversion::Conversion& conversion) {
+  Diagnostics warnings = conversion.notCarriedOver;
+  std::erase_if(warnings, [](const Diagnostic& each) { return each.severity == Severity::Note; });
+  return warnings;
+}
+
 /// The program in the other language, run in the same world.
 inline Twin runConverted(const Twin& twin, const PlantedPart& part, const conversion::TouchProbe& probe = {}) {
   conversion::Conversion conversion = converted(twin.text, twin.language, part.bench.control, probe);
   Twin other = run(conversion.text, otherLanguage(twin.language), part);
   other.lost = std::move(conversion.mistakes);
   for (Diagnostic& each : conversion.notCarriedOver)
-    if (isLoss(each)) other.lost.push_back(std::move(each));
+    if (isLoss(each)) {
+      other.lost.push_back(std::move(each));
+    } else if (each.severity == Severity::Note) {
+      other.notes.push_back(std::move(each));
+    }
   return other;
 }
 
@@ -171,6 +183,29 @@ inline ::testing::AssertionResult sameResults(const Twin& one, const Twin& other
     }
   }
   return ::testing::AssertionSuccess();
+}
+
+/// Both programs touch at the same places, in any order, or a note of the conversion that gave `other` tells that they
+/// do not.
+inline ::testing::AssertionResult touchesAgreeOrToldOf(const Twin& one, const Twin& other) {
+  const bool told = std::ranges::any_of(other.notes, [](const Diagnostic& each) {
+    return each.message.find("touches lie at other places") != std::string::npos ||
+           each.message.find("is touched twice") != std::string::npos;
+  });
+  if (told) return ::testing::AssertionSuccess();
+  std::vector<Vector3> left = touchesOf(other);
+  for (const Vector3& touch : touchesOf(one)) {
+    const auto same = std::ranges::find_if(left, [&](const Vector3& each) { return (each - touch).norm() < 1e-5; });
+    if (same == left.end()) {
+      return ::testing::AssertionFailure()
+             << fmt::format("only one touches at {:.6f} {:.6f} {:.6f}\n", touch.x(), touch.y(), touch.z()) << one.text
+             << "\n"
+             << other.text;
+    }
+    left.erase(same);
+  }
+  if (left.empty()) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << left.size() << " touches more\n" << one.text << "\n" << other.text;
 }
 
 /// What the tools' corrections are at the end, by length and radius: of tool 5, "MILL".
