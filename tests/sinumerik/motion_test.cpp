@@ -453,6 +453,21 @@ TEST(SinumerikMotion, MeasuringBlocksLatchThePosition) {
   EXPECT_EQ(world.alarm("G0 X0\nMEAS=3 G1 X10 F100\n"), "14020");
 }
 
+/// An angle beyond the turn names the same place of the axis: told again, the axis stays there.
+TEST(SinumerikMotion, AnglesBeyondTheTurnOfAModuloAxisAreTakenWithinIt) {
+  for (const auto& [told, place] : {std::pair{"-20", 340.0}, std::pair{"AC(-380)", 340.0}, std::pair{"375", 15.0}}) {
+    World world("mill5-table-table");
+    const auto c = *world.machine.description().axisIndex("C");
+    const std::string block = std::string("G0 C=") + told + "\n";
+    world.run(block);
+    EXPECT_NEAR(world.machine.position()[c], place, 1e-9) << told;
+    world.run(block + block);
+    EXPECT_NEAR(world.machine.position()[c], place, 1e-9) << told;
+    world.run("G0 C10\n");
+    EXPECT_NEAR(world.machine.position()[c], 10, 1e-9) << told;
+  }
+}
+
 TEST(SinumerikMotion, RotaryAxesTurnAsTold) {
   World world("mill5-table-table");
   const auto& axes = world.machine.description().axes;

@@ -26,7 +26,8 @@ double turnsTowards(double current, double angle) { return angle + 360 * std::ro
 
 }  // namespace
 
-/// The program angle to go to. A modulo axis goes to positions within a turn; the others wherever they are told.
+/// The program angle to go to. A modulo axis goes to positions within the turn it stands in, -20 is 340 there; the
+/// others wherever they are told.
 double PathMotion::rotaryTarget(std::size_t axis, WordMode mode, double value) const {
   const double current = programAngle(axis);
   const bool modulo = control_.channel.description().axes[axis].modulo;
@@ -50,7 +51,9 @@ double PathMotion::rotaryTarget(std::size_t axis, WordMode mode, double value) c
     case WordMode::Absolute:
       break;
   }
-  return modulo ? 360 * std::floor(current / 360 + 1e-12) + value : value;
+  if (!modulo) return value;
+  const double withinTurn = value - 360 * std::floor(value / 360);
+  return 360 * std::floor(current / 360 + 1e-12) + withinTurn;
 }
 
 void PathMotion::readAxis(std::uint32_t address, WordMode mode, double value, Words& words) {
