@@ -1,8 +1,12 @@
+#include <gmock/gmock.h>
+
 #include "cycles_heidenhain/walls.hpp"
 
 /// Cycles 3, 4 and 444: single points in any direction.
 namespace probewright::testing_support {
 namespace {
+
+using ::testing::HasSubstr;
 
 constexpr int worlds = 100;
 constexpr double exact = 1e-6;
@@ -70,6 +74,20 @@ TEST(Cycle444, ReadsEveryFormOfTheTolerance) {
   EXPECT_EQ(status("1-1", -0.9), 0);
   for (const char* none : {" ", "0", "0.1+0.1", "0.1+0.2"})
     EXPECT_EQ(status(none, 1), -1) << none;
+}
+
+/// The limits of a coordinate, the smaller one first, also where the normal points down its axis.
+TEST(Cycle444, WritesTheLowerLimitOfEachAxisFirst) {
+  Bench bench;
+  bench.preset(1, {0, 0, -400}, 0);
+  const Vector3 normal(-0.6, 0, 0.8);
+  bench.part(simulation::HalfSpace({Vector3(10, 0, -395) + 0.2 * normal, normal}));
+  const Words words = {{263, 10}, {264, 0}, {294, 5}, {581, -6}, {582, 0}, {583, 8}, {320, 0}, {260, 60}, {309, 0}};
+  const Ran ran = bench.run(probe(444, words, " ~\n  QS400=\"0.4-0.1\" ;T"));
+  ASSERT_TRUE(ran.finished()) << ran.why();
+  const std::string log = ran.log("TCHPR444.html");
+  EXPECT_THAT(log, HasSubstr("<td>10.0000</td><td>9.7600</td><td>10.0600</td><td>9.8800</td><td>-0.1200</td>"));
+  EXPECT_THAT(log, HasSubstr("<td>5.0000</td><td>4.9200</td><td>5.3200</td><td>5.1600</td><td>0.1600</td>"));
 }
 
 /// Every number of the log, in mm and in inches; a row for each axis and one along the normal.

@@ -152,9 +152,11 @@ void run(Context& context, const Arguments&) {
   const char* state = words[static_cast<std::size_t>(verdict)];
   std::vector<std::vector<std::string>> rows;
   for (int i = 0; i < 3; ++i) {
-    const auto limit = [&](double value) { return limits ? number(nominal[i] + value * n[i]) : std::string(); };
-    rows.push_back({names[i], number(path[i]), number(nominal[i]), limits ? limit(limits->lower) : "",
-                    limits ? limit(limits->upper) : "", number(touch.surface[i]), number(deviation[i]), ""});
+    // Where the normal points down an axis, the upper limit along it is the lower coordinate.
+    const auto [lower, upper] = std::minmax({limits ? limits->lower * n[i] : 0, limits ? limits->upper * n[i] : 0});
+    const auto limit = [&](double value) { return limits ? number(nominal[i] + value) : std::string(); };
+    rows.push_back({names[i], number(path[i]), number(nominal[i]), limit(lower), limit(upper), number(touch.surface[i]),
+                    number(deviation[i]), ""});
   }
   rows.push_back({"Along the normal", number(prober.probe().distance), number(0), limits ? number(limits->lower) : "",
                   limits ? number(limits->upper) : "", number(along), number(along), state});
