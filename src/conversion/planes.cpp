@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/text.hpp"
+#include "conversion/modes.hpp"
 #include "conversion/to_klartext.hpp"
 #include "conversion/to_sinumerik.hpp"
 #include "language/klartext/commands.hpp"
@@ -42,6 +43,36 @@ std::array<double, 3> spaceAngles(double x, double y, double z) {
 }
 
 }  // namespace
+
+std::optional<ToSinumerik::Plane> ToSinumerik::planeAfter(const Block& block, const Transform& transform) {
+  const klartext::TransformKind kind = klartext::kindOf(block, transform);
+  if (kind == klartext::TransformKind::PlaneReset) return Plane();
+  if (kind != klartext::TransformKind::PlaneSpatial) return std::nullopt;
+  Plane plane{.isTilted = true};
+  for (const Word& word : std::span<const Word>(block.words).subspan(transform.words.first, transform.words.count)) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (word.address != addressOf(std::array{"SPA", "SPB", "SPC"}[i])) continue;
+      const auto angle = literalOf(block, word.value);
+      if (!angle || word.mode == WordMode::Incremental) return std::nullopt;
+      plane.angles[i] = *angle;
+    }
+  }
+  return plane;
+}
+
+std::array<Quantity, 3> ToSinumerik::untilted(const std::array<Quantity, 3>& way) const {
+  const Eigen::Matrix3d turned = (Eigen::AngleAxisd(plane_->angles[2] / degrees, Vector3::UnitZ()) *
+                                  Eigen::AngleAxisd(plane_->angles[1] / degrees, Vector3::UnitY()) *
+                                  Eigen::AngleAxisd(plane_->angles[0] / degrees, Vector3::UnitX()))
+                                     .toRotationMatrix();
+  const auto letter = [this](std::size_t index) { return axis(index)[0] - 'X'; };
+  std::array<Quantity, 3> result;
+  for (std::size_t to = 0; to < 3; ++to)
+    for (std::size_t from = 0; from < 3; ++from)
+      if (const double share = turned(letter(to), letter(from)); std::abs(share) > 1e-15)  // quarter turns
+        result[to] = result[to] + way[from] * share;
+  return result;
+}
 
 void ToSinumerik::plane(const Block& block, const Transform& transform) {
   const klartext::TransformKind kind = klartext::kindOf(block, transform);
@@ -88,6 +119,7 @@ void ToSinumerik::plane(const Block& block, const Transform& transform) {
     if (turns) needsRotaryAxis();
     // Where the plane is level the table may stand anywhere; PLANE RESET turns it home.
     if (turns) turnHome(retraction);
+    plane_ = planeAfter(block, transform);
     return out_.line("CYCLE800()");
   }
 
@@ -114,6 +146,7 @@ void ToSinumerik::plane(const Block& block, const Transform& transform) {
                   "CYCLE800 the one that _DIR names",
                   "program SEQ+ or SEQ- in each PLANE block that turns the rotary axes");
   }
+  plane_ = planeAfter(block, transform);
   const int direction = !turns ? 0 : posture == Posture::Smaller ? -1 : 1;
   const auto swivel = [&](std::string_view first) {
     out_.line(fmt::format("CYCLE800({},\"\",0,{},0,0,0,{},{},{},0,0,0,{}{})", first, modeZYX, sinumerikText(c),

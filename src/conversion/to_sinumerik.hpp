@@ -79,12 +79,18 @@ private:
   enum class Spindle : std::uint8_t { Empty, Tool, Unset };
   /// Empty where only the running program knows it.
   static std::optional<Spindle> calledBy(const language::Block& block, const language::ToolCall& call);
+  struct Plane {
+    bool isTilted = false;           ///< by PLANE SPATIAL, until PLANE RESET; so it is with angles of 0
+    std::array<double, 3> angles{};  ///< SPA, SPB, SPC
+    bool operator==(const Plane&) const = default;
+  };
   /// What is in effect and stays so until a block changes it; empty where it depends on the way that led there.
   struct Modes {
     std::optional<char> toolAxis = 'Z';
     std::optional<Spindle> spindle;
     std::optional<std::array<double, 3>> shift = std::array<double, 3>{};  ///< X, Y, Z
     std::optional<double> rotation = 0;
+    std::optional<Plane> plane = Plane();
     std::optional<language::RadiusCompensation> compensation = language::RadiusCompensation::Off;
     std::optional<int> row;
     std::set<int> selected;  ///< rows that cycle 247 has selected: the preset table has them
@@ -101,6 +107,10 @@ private:
 
   // planes.cpp
   void plane(const language::Block& block, const language::Transform& transform);
+  /// What is in effect after a PLANE block; empty if only the running program knows its angles.
+  static std::optional<Plane> planeAfter(const language::Block& block, const language::Transform& transform);
+  /// A way in the tilted plane, counted along the axes of the zero offset: main, minor and tool axis.
+  std::array<Quantity, 3> untilted(const std::array<Quantity, 3>& way) const;
 
   // single_touches.cpp
   void singleTouch(const language::Block& block, const language::CycleCall& cycle, const Call& call);
@@ -279,6 +289,7 @@ private:
   std::vector<std::string> openLabels_;
   std::map<int, Quantity> global_;  ///< GLOBAL DEF values by Q number
   Frame frame_;
+  std::optional<Plane> plane_ = Plane();
   bool axisDoubtful_ = false;
   std::optional<int> activeRow_;
   std::set<int> selectedRows_;  ///< on every way to this block

@@ -139,6 +139,14 @@ void ToSinumerik::cycle(const Block& block, const CycleCall& cycle) {
 void ToSinumerik::listForbiddenFrame(const Block& block, int cycle) {
   const cycles::heidenhain::Entry* entry = cycles::heidenhain::findEntry(cycle);
   if (entry == nullptr) return;
+  const bool levelOnly = !entry->conditions.tilted.contains(control::ControlKind::TNC640);
+  if (levelOnly && plane_ != std::optional(Plane())) {
+    out_.list(block,
+              fmt::format("a tilted working plane {} in effect here, with which a TNC 640 stops at cycle {}; the "
+                          "SINUMERIK measures",
+                          plane_ ? "is" : "may be", cycle),
+              "program PLANE RESET before the cycle");
+  }
   const auto forbidden = cycles::heidenhain::forbiddenTransformations(entry->conditions);
   const bool shifted = std::ranges::any_of(frame_.shift, [](const Quantity& each) { return !(each == 0); });
   const bool turned = frame_.rotation && !(*frame_.rotation == 0);
@@ -278,6 +286,11 @@ void ToSinumerik::shiftOrigin(const Block& block, const MeasuringTask& task, con
     any = any || !(left[i] == 0);
   }
   if (!any) return;
+  if (plane_ && plane_->isTilted) left = untilted(left);
+  if (!plane_) {
+    out_.list(block, "the origin is shifted as if no plane were tilted here, which only the running program knows",
+              "ask for the coordinates that the cycle expects, or give the angles of PLANE as numbers");
+  }
   const bool isActive = task.active || (activeRow_ && task.row == *activeRow_);
   if (from == SinumerikPassage::Rest::ShiftFromMeasured && !isActive) {
     out_.list(block, "the origin is shifted as if its zero offset were the one in effect",

@@ -167,7 +167,9 @@ void ToSinumerik::follow(const Block& block, Modes& modes) {
     const TransformKind kind = klartext::kindOf(block, *transform);
     const auto words = std::span<const Word>(block.words).subspan(transform->words.first, transform->words.count);
     const auto first = words.empty() ? std::optional<double>() : literalOf(block, words.front().value);
-    if (kind == TransformKind::PresetByCycle) {
+    if (isPlane(kind)) {
+      modes.plane = planeAfter(block, *transform);
+    } else if (kind == TransformKind::PresetByCycle) {
       modes.shift = std::array<double, 3>{};
       modes.rotation = 0;
       modes.row = first ? std::optional(*first == 0 ? 99 : static_cast<int>(*first)) : std::nullopt;
@@ -212,6 +214,7 @@ bool ToSinumerik::agree(Modes& with, const Modes& other) {
   meet(with.spindle, other.spindle);
   meet(with.shift, other.shift);
   meet(with.rotation, other.rotation);
+  meet(with.plane, other.plane);
   meet(with.compensation, other.compensation);
   meet(with.row, other.row);
   std::erase_if(with.selected, [&](int row) { return !other.selected.contains(row); });
@@ -270,6 +273,7 @@ void ToSinumerik::surveyModes() {
     modes.spindle = Spindle::Unset;
     modes.shift = std::array<double, 3>{0.0123456789, 0.0123456789, 0.0123456789};
     modes.rotation = 0.0123456789;
+    modes.plane = Plane{.isTilted = true, .angles = {0.0123456789, 0.0123456789, 0.0123456789}};
     modes.compensation = RadiusCompensation::Unchanged;
     modes.row = -1;
     const Modes before = modes;
@@ -310,6 +314,7 @@ void ToSinumerik::adopt(const Block& block) {
   frame_.rotation = modes.rotation ? std::optional(Quantity(*modes.rotation)) : std::nullopt;
   for (std::size_t i = 0; i < 3; ++i)
     frame_.shift[i] = modes.shift ? (*modes.shift)[static_cast<std::size_t>(axis(i)[0] - 'X')] : 0;
+  plane_ = modes.plane;
   activeRow_ = modes.row;
   selectedRows_ = modes.selected;
   arcDirection_ = 0;

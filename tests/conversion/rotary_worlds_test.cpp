@@ -72,6 +72,81 @@ TEST(ConvertTiltedPlane, MeasuresHolesInPlaneSpatial) {
   }
 }
 
+/// The origin moves along the tilted plane, by what the hole is off and by what the program asks for besides.
+TEST(ConvertTiltedPlane, ShiftsTheOriginAlongIt) {
+  Dice dice(8007);
+  for (int world = 0; world < worlds; ++world) {
+    SCOPED_TRACE(fmt::format("world {}", world));
+    const TiltedHole hole(dice, builds[world % 3]);
+    const Vector3& n = hole.part.nominal;
+    const bool level = world % 5 == 4;
+    const auto set = [&](bool known) {
+      return std::string("L Z-1 R0 FMAX M91\nQ50 = 0\n") +
+             fmt::format("PLANE SPATIAL SPA{:+.3f} SPB{:+.3f} SPC{} TURN FMAX\n", hole.angles.x(), hole.angles.y(),
+                         known ? fmt::format("{:+.3f}", hole.angles.z()) : "+Q50") +
+             fmt::format("L X{:+.3f} Y{:+.3f} R0 FMAX\nL Z{:+.3f} R0 FMAX\n", n.x(), n.y(), n.z() + 30) +
+             probe(412, {{321, n.x()},
+                         {322, n.y()},
+                         {262, hole.diameter},
+                         {325, 0},
+                         {247, 90},
+                         {261, n.z() - 8},
+                         {320, 1},
+                         {260, n.z() + 20},
+                         {301, 0},
+                         {305, 1},
+                         {331, n.x() + (level ? 0 : 0.5)},
+                         {332, n.y() - (level ? 0 : 0.8)},
+                         {303, 1},
+                         {381, 0},
+                         {382, 0},
+                         {383, 0},
+                         {384, 0},
+                         {333, 0},
+                         {423, 4},
+                         {365, 1}}) +
+             fmt::format("L Z{:+.3f} R0 FMAX\nPLANE RESET STAY\n", n.z() + 40);
+    };
+    const auto program = [](const std::string& blocks) {
+      return "BEGIN PGM BENCH MM\nTOOL CALL 1 Z\n" + blocks + "END PGM BENCH MM\n";
+    };
+    const Twin original = runKlartext(program(set(true)), hole.part);
+    const Twin there = runConverted(original, hole.part);
+    ASSERT_TRUE(ranWhole(original));
+    ASSERT_TRUE(ranWhole(there));
+    EXPECT_TRUE(sameOrigin(original, there));
+    // Where only the running program knows the plane, that is listed.
+    EXPECT_EQ(lists(toSinumerik(program(set(false))), "as if no plane were tilted"), !level);
+    if (::testing::Test::HasFailure()) return;
+  }
+}
+
+/// A TNC 640 aligns workpieces in the untilted plane only.
+TEST(ConvertTiltedPlane, NamesCyclesThatNeedTheUntiltedOne) {
+  const std::string align = probe(400, {{263, 20},
+                                        {264, 0},
+                                        {265, 60},
+                                        {266, 0},
+                                        {272, 2},
+                                        {267, 1},
+                                        {261, -8},
+                                        {320, 8},
+                                        {260, 30},
+                                        {301, 0},
+                                        {307, 0},
+                                        {305, 1}});
+  const auto listed = [&](const std::string& before) {
+    return lists(toSinumerik(klartextProgram(before + align)), "stops at cycle 400");
+  };
+  for (const char* plane : {"SPA+0 SPB+5 SPC+0", "SPA+0 SPB+0 SPC+0", "SPA+Q1 SPB+0 SPC+0"}) {
+    const std::string tilts = fmt::format("PLANE SPATIAL {} STAY\n", plane);
+    EXPECT_TRUE(listed(tilts)) << plane;
+    EXPECT_TRUE(listed("FN 9: IF +Q1 EQU +0 GOTO LBL 1\n" + tilts + "LBL 1\n")) << plane;
+    EXPECT_FALSE(listed(tilts + "PLANE RESET STAY\n")) << plane;
+  }
+  EXPECT_FALSE(listed(""));
+}
+
 TEST(ConvertTiltedPlane, MeasuresHolesInSwivelledPlanes) {
   Dice dice(8001);
   for (int world = 0; world < worlds; ++world) {
