@@ -108,6 +108,13 @@ TEST(KnownData, TheRecordIsTitledByWhatIsMeasured) {
   bench.start({0, 0, -10});
   bench.tryRun("CYCLE977", {{"S_MVAR", 5}, {"S_SETV0", 40}, {"S_SETV1", 41}, {"S_FA", 6}, {"S_TSA", 2}});
   EXPECT_EQ(bench.control.journal.cycles.back().title, "Rectangular pocket 40 x 41");
+  // Tables and logs beside it are in millimetres.
+  bench.control.unit = 25.4;
+  bench.start({0, 0, -10});
+  bench.tryRun("CYCLE977", {{"S_MVAR", 1}, {"S_SETV", 1.574803}, {"S_FA", 0.25}, {"S_TSA", 0.1}});
+  EXPECT_EQ(bench.control.journal.cycles.back().title, "Hole 1.5748 inch");
+  bench.tryRun("CYCLE977", {{"S_MVAR", 1}, {"S_SETV", 0}, {"S_FA", 0.25}, {"S_TSA", 0.1}});
+  EXPECT_EQ(bench.control.journal.cycles.back().title, "Hole");
 }
 
 TEST(KnownData, WhatStaysAsItWasIsNoCorrection) {

@@ -41,8 +41,9 @@ struct RepeatMeasurement {};
 /// The manual gives no number.
 constexpr int mostRepetitions = 4;
 
-/// What is measured, where S_MVAR tells it, with its set size: "Hole 40". Else the cycle's title.
-std::string titleOf(const Entry& entry, const Arguments& arguments) {
+/// What is measured, where S_MVAR tells it, with its set size as the call has it: "Hole 40", "Hole 1.5748 inch". Else
+/// the cycle's title. `unit`: mm in the unit of the program.
+std::string titleOf(const Entry& entry, const Arguments& arguments, double unit) {
   const CycleDefinition& definition = arguments.definition();
   if (!entry.title.byFeature) return std::string(definition.title);
   const Parameter& variant = definition.parameters.front();
@@ -52,13 +53,19 @@ std::string titleOf(const Entry& entry, const Arguments& arguments) {
   if (choice == feature.choices.end()) return std::string(definition.title);
   std::string title(choice->meaning);
   title.front() = upper(title.front());
+  const double places = unit == 1 ? 1e4 : 1e5;
   const char* between = " ";
+  bool sized = false;
   for (const TitleSize& size : entry.title.sizes) {
     if (size.variants != 0 && (size.variants >> units & 1) == 0) continue;
     const double value = arguments.number(required(arguments, size.parameter).address);
-    if (value > 0) title += between + formatShortest(std::round(value * 1e4) / 1e4);
+    if (value > 0) {
+      title += between + formatShortest(std::round(value * places) / places);
+      sized = true;
+    }
     between = " x ";
   }
+  if (sized && unit != 1) title += " inch";
   return title;
 }
 
@@ -73,7 +80,7 @@ Context::Context(Control& control, const Entry& entry, const Arguments& argument
   const CycleDefinition& definition = arguments.definition();
   control::CycleRecord record;
   record.name = definition.name;
-  record.title = titleOf(entry, arguments);
+  record.title = titleOf(entry, arguments, control.unit);
   record.place = std::move(place);
   for (std::size_t i = 0; i < definition.parameters.size(); ++i) {
     const Argument& value = arguments.values()[i];
