@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "support/sinumerik_bench.hpp"
 
@@ -109,12 +110,12 @@ TEST(KnownData, TheRecordIsTitledByWhatIsMeasured) {
   bench.tryRun("CYCLE977", {{"S_MVAR", 5}, {"S_SETV0", 40}, {"S_SETV1", 41}, {"S_FA", 6}, {"S_TSA", 2}});
   EXPECT_EQ(bench.control.journal.cycles.back().title, "Rectangular pocket 40 x 41");
   // Tables and logs beside it are in millimetres.
-  bench.control.unit = 25.4;
-  bench.start({0, 0, -10});
-  bench.tryRun("CYCLE977", {{"S_MVAR", 1}, {"S_SETV", 1.574803}, {"S_FA", 0.25}, {"S_TSA", 0.1}});
-  EXPECT_EQ(bench.control.journal.cycles.back().title, "Hole 1.5748 inch");
-  bench.tryRun("CYCLE977", {{"S_MVAR", 1}, {"S_SETV", 0}, {"S_FA", 0.25}, {"S_TSA", 0.1}});
-  EXPECT_EQ(bench.control.journal.cycles.back().title, "Hole");
+  for (const auto& [diameter, title] :
+       {std::pair{1.574803, "Hole 1.5748 inch"}, std::pair{1.581234, "Hole 1.58123 inch"}}) {
+    bench.start({0, 0, -10});
+    bench.run("CYCLE977", {{"S_MVAR", 1}, {"S_SETV", diameter}, {"S_FA", 0.25}, {"S_TSA", 0.1}}, {}, "G70\n");
+    EXPECT_EQ(bench.control.journal.cycles.back().title, title);
+  }
 }
 
 TEST(KnownData, WhatStaysAsItWasIsNoCorrection) {
