@@ -244,7 +244,7 @@ TEST(Check, KnowsWhatNeedsOtherAxesThanTheSetupHas) {
   EXPECT_EQ(check("a.mpf", swivel("", 0), siemens), "");
   EXPECT_EQ(check("a.mpf", swivel("", 10), siemens + machine), "");
   std::filesystem::create_directory(folder / "tables");
-  folder.file("tables/SWIVEL.INI", "$TC_CARR23[1]=\"T\"\n$TC_CARR34[1]=\"TABLE\"\nM17\n");
+  folder.file("tables/SWIVEL.INI", "$TC_CARR23[1]=\"T\"\n$TC_CARR34[1]=\"TABLE\"\n$TC_CARR34[2]=\"HEAD\"\nM17\n");
   const std::string named = "[control]\ntype = \"840Dsl\"\ntables = \"tables\"\n" + tool + machine;
   EXPECT_THAT(check("a.mpf", swivel("HEAD", 10), named),
               HasSubstr("a.mpf:1:13: warning: the setup has no swivel data set \"HEAD\""));

@@ -215,6 +215,37 @@ TEST(ConvertFlow, NamesOffsetsThatActLater) {
   EXPECT_TRUE(twinOf("$P_UIFR[2,X,TR]=25\nG0 X50 Y0\n").lost.empty());
 }
 
+/// A structure may be the last of a program: what comes behind it is its end.
+TEST(ConvertFlow, EndsWithAStructure) {
+  for (const char* blocks :
+       {"IF R1==1\nG0 X5\nENDIF\n", "IF R1==1\nG0 X5\nELSE\nG0 X6\nENDIF\n", "WHILE R1>1\nR1=R1-1\nENDWHILE\n",
+        "FOR R1=1 TO 3\nG0 X=R1\nENDFOR\n", "REPEAT\nR1=R1+1\nUNTIL R1>3\n", "LOOP\nGOTOF LA1\nENDLOOP\nLA1:\n"}) {
+    const conversion::Conversion there = toKlartext(fmt::format("G17 G90 G71\n{}", blocks));
+    EXPECT_TRUE(there.notCarriedOver.empty()) << there.text;
+    EXPECT_NE(there.text.find("LBL"), std::string::npos) << there.text;
+    EXPECT_NE(there.text.find("END PGM"), std::string::npos) << there.text;
+  }
+}
+
+/// With Q305 = 0 the rotation goes into row 0, which is in effect then; other rows keep what they have.
+TEST(ConvertFlow, SetsTheRotationOfRowZero) {
+  PlantedPart part;
+  part.bench.preset(1, {10, 20, -300});
+  part.bench.preset(2, {30, -20, -300});
+  for (const int row : {0, 1, 2})
+    for (const char* after : {"", "CYCL DEF 247 PRESET ~\n    Q339=+1\n", "CYCL DEF 247 PRESET ~\n    Q339=+2\n"}) {
+      const Twin original =
+          runKlartext(klartextProgram(fmt::format("CYCL DEF 247 PRESET ~\n    Q339=+1\nTCH PROBE 404 BASIC ROTATION ~\n"
+                                                  "    Q307=+12 ~\n    Q305={}\n{}L X+50 Y+0 R0 FMAX\n",
+                                                  row, after)),
+                      part);
+      const Twin there = runConverted(original, part);
+      ASSERT_TRUE(ranWhole(original));
+      ASSERT_TRUE(there.finished) << there.why;
+      EXPECT_TRUE(sameEnd(original, there)) << row << after << there.text;
+    }
+}
+
 /// A row that only the running program knows is that row, not the one in effect.
 TEST(ConvertFlow, SetsTheRotationOfARowThatAParameterNames) {
   PlantedPart part;

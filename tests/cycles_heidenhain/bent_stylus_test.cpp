@@ -158,6 +158,24 @@ TEST(BentStylus, IsCalibratedInARingAndMeasuresSlantingFaces) {
   }
 }
 
+/// The circle is measured by as many touches as the cycle is told; only the first search for its centre takes four.
+TEST(BentStylus, IsCalibratedByAsManyTouchesAsTheCycleSays) {
+  Dice dice(4233);
+  Bent world(dice);
+  world.bench.part(simulation::Ring(25, 40, -30), world.at(world.beside.x(), world.beside.y()));
+  const Ran ran = world.bench.run(above(-10) + probe(462, {{407, 25}, {320, 0}, {423, 7}, {380, 20}}) + away);
+  world.expectCalibrated(ran);
+  const auto& touches = ran.outcome.journal.cycles.front().touches;
+  int sevenths = 0;
+  for (std::size_t i = 1; i < touches.size(); ++i) {
+    const Vector3 &before = touches[i - 1].direction, &after = touches[i].direction;
+    const double turn = degrees(std::atan2(before.cross(after).z(), before.dot(after)));
+    sevenths += std::abs(std::abs(turn) - 360.0 / 7) < 1e-3 ? 1 : 0;
+  }
+  EXPECT_GT(sevenths, 6) << "more than one circle";
+  EXPECT_EQ(sevenths % 6, 0) << "whole circles";
+}
+
 TEST(BentStylus, IsCalibratedOnAStud) {
   Dice dice(4631);
   for (int at = 0; at < 30; ++at) {

@@ -135,6 +135,7 @@ TEST(Calibrations, FindNoCentreOffsetWithoutAReversal) {
   for (const std::string& cycle : {ring, stud, ball}) {
     Bench bench = standards();
     bench.believedProbe().tipOffset = {0, 0};
+    bench.believedProbe().calibrationAngle = 30;
     bench.setup.world.truth.machine.spindleOrients = false;
     const Ran ran = bench.run(cycle);
     ASSERT_TRUE(ran.finished()) << ran.why();
@@ -145,6 +146,36 @@ TEST(Calibrations, FindNoCentreOffsetWithoutAReversal) {
     EXPECT_EQ(log.find("Reversal"), std::string::npos);
     EXPECT_EQ(log.find("CAL_OF1"), std::string::npos);
   }
+}
+
+/// Cycles that measure leave such a spindle as it stands, whatever angle the probe was calibrated at.
+TEST(Calibrations, LetSpindlesStandThatCannotBeOriented) {
+  Bench bench = standards();
+  bench.trueProbe().tipOffset = bench.believedProbe().tipOffset = {0, 0};
+  bench.believedProbe().calibrationAngle = 30;
+  bench.believedProbe().radius = 2;
+  bench.setup.world.truth.machine.spindleOrients = false;
+  const Ran ran = bench.run(probe(421, {{273, 80},
+                                        {274, 0},
+                                        {262, 40},
+                                        {325, 0},
+                                        {247, 90},
+                                        {261, -8},
+                                        {320, 2},
+                                        {260, 40},
+                                        {301, 0},
+                                        {275, 0},
+                                        {276, 0},
+                                        {279, 0},
+                                        {280, 0},
+                                        {281, 0},
+                                        {309, 0},
+                                        {330, 0},
+                                        {423, 4},
+                                        {365, 1}}));
+  ASSERT_TRUE(ran.finished()) << ran.why();
+  EXPECT_NEAR(ran.q(151), 80.2, 1e-4);
+  EXPECT_NEAR(ran.q(152), -0.1, 1e-4);
 }
 
 /// Coarse measurement by four touches, fine and reversed measurement by Q423 touches each, beginning at Q380.

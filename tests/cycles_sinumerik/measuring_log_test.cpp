@@ -172,6 +172,15 @@ TEST(MeasuringLog, IsWrittenAsTable) {
   EXPECT_THAT(column(linesOf(bench.log("holes.CSV")).back(), "Alarm"), HasSubstr("61303"));
 }
 
+/// A field with a separator or a quotation mark is quoted, and what is quoted in it is doubled (RFC 4180).
+TEST(MeasuringLog, QuotesFieldsOfTheTable) {
+  HoleBench bench;
+  bench.control.programPath = "A;\"B\".MPF";
+  bench.run("CYCLE150", {{"S_PROT", 101}}, {{"S_PATH", "holes"}});
+  measure(bench);
+  EXPECT_THAT(bench.log("holes.CSV"), HasSubstr(";\"A;\"\"B\"\".MPF\";"));
+}
+
 TEST(MeasuringLog, BeginsEndsAndGoesOnAsCycle150Says) {
   HoleBench bench;
   const auto entries = [&](const std::string& file) {

@@ -120,6 +120,17 @@ TEST(Convert, NamesAndKeepsWhatHasNoTwin) {
             "N60 ; NOT CARRIED OVER: 6 TCH PROBE 3.3 DIST +10 F100 MB1 *\nN99999999 %A G71 *\n");
 }
 
+/// Statements that DIN/ISO programs write as Klartext does.
+TEST(Convert, KeepsWhatIsTheSameInBoth) {
+  for (const std::string block :
+       {"PRESET CORR X+1", "DECLARE POSITION P1", "SQL BIND Q5 \"T.N\"", "SEL CYCLE \"C.H\"",
+        "TABDATA READ Q1 = CORR-TCS COLUMN \"DR\" KEY \"3\"", "ERROR = \"E\"", "FUNCTION RESET TCPM"}) {
+    const Conversion conversion = toDinIso("0 BEGIN PGM A MM\n1 " + block + "\n2 END PGM A MM\n");
+    EXPECT_TRUE(conversion.notCarriedOver.empty()) << conversion.text;
+    EXPECT_THAT(conversion.text, HasSubstr("N10 " + block + " *\n"));
+  }
+}
+
 /// Values for the PLC and for the printer stand behind P01, P02... in DIN/ISO, between slashes in Klartext.
 TEST(Convert, GivesListsOfValuesTheFormOfTheLanguage) {
   const std::pair<const char*, const char*> twins[] = {

@@ -194,6 +194,9 @@ TEST(SystemData, WhatTheControlDoesNotHaveIsRefused) {
   World fresh;
   for (const char* block : {"FN 18: SYSREAD Q1 = ID50 NR1 IDX7\n", "FN 17: SYSWRITE ID50 NR4 IDX7 = +1\n"})
     EXPECT_THAT(messageOf(fresh.run(block)), HasSubstr("IDX7 on this control: TOOL.T has no row 7"));
+  // What is no datum of a tool is missing whichever row is asked for.
+  EXPECT_THAT(messageOf(fresh.run("FN 18: SYSREAD Q1 = ID50 NR99 IDX7\n")),
+              ::testing::AllOf(HasSubstr("ID50 NR99"), ::testing::Not(HasSubstr("TOOL.T"))));
   for (const int format : {-1, 17, 18, 19, 21, 22, 40})
     EXPECT_THAT(messageOf(world.run(fmt::format("QS1 = SYSSTR( ID10321 NR{} )\n", format))), HasSubstr("ID10321"));
   EXPECT_THAT(messageOf(world.run("QS1 = \"\"\nQS2 = CFGREAD( KEY_QS1 TAG_\"CfgX\" ATR_\"unknown\" )\n")),

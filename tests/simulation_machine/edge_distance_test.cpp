@@ -51,5 +51,26 @@ TEST(TurnsBehindPlane, IsAsFarAsThePlaneThatComesNearest) {
   }
 }
 
+/// A straight edge beside the plane of its meridian, in front of a sphere: as near as the segment is to the centre.
+TEST(NearestOf, KnowsHowFarAnEdgeStandsAside) {
+  std::mt19937_64 random(13);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (int i = 0; i < 100; ++i) {
+    EdgePiece piece;
+    piece.from = Vector2(10 + any(random), 5 * any(random));
+    piece.to = Vector2(14 + any(random), 20 + any(random));
+    piece.angle = 3 * any(random);
+    piece.across = 4 * any(random);
+    const auto placeOf = [&](const Vector2& end) -> Vector3 {
+      return Eigen::AngleAxisd(piece.angle, Vector3::UnitZ()) * Vector3(end.x(), piece.across, end.y());
+    };
+    const Vector3 from = placeOf(piece.from), along = placeOf(piece.to) - from;
+    const Vector3 centre(30 * any(random), 30 * any(random), 10 + 10 * any(random));
+    const double share = std::clamp((centre - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    EXPECT_NEAR(nearestOf({piece}, Pose::Identity(), SolidSphere(centre, 2)).gap,
+                (from + share * along - centre).norm() - 2, 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace probewright::simulation

@@ -88,6 +88,19 @@ TEST(SinumerikBlockWords, ThatTheBlocksBeforeTell) {
   // G18: X and Z are the plane, Y stands beside polar coordinates. A label that is jumped to: nobody knows.
   EXPECT_EQ(mistake(std::string(before) + "G18\nG1 Y5 AP=45 RP=20\nM30\n"), "");
   EXPECT_EQ(mistake(std::string(before) + "G1 X5\nLA1: Y5 I3\nIF R1==1 GOTOB LA1\nM30\n"), "");
+  // Of two axes one lies in the plane, whichever that is; of one nobody knows.
+  const auto inAnyPlane = [](const std::string& axes) {
+    return mistake(before + ("LA1: G1 " + axes + " AP=45 RP=20\nIF R1==1 GOTOB LA1\nM30\n"));
+  };
+  EXPECT_EQ(inAnyPlane("X5 Z3"), "X stands beside AP: the end point is polar or Cartesian, not both");
+  EXPECT_EQ(inAnyPlane("Y5 Z3"), "Y stands beside AP: the end point is polar or Cartesian, not both");
+  EXPECT_EQ(inAnyPlane("Z3"), "");
+  // A jump that only the run knows leads to a label, not to the blocks behind it.
+  const auto jumped = [](const std::string& block) {
+    return mistake(before + ("G1 X5\n" + block + "\nIF R1==1 GOTOB \"LA\"<<R2\nM30\n"));
+  };
+  EXPECT_EQ(jumped("Y5 I3"), "G1 takes no I");
+  EXPECT_EQ(jumped("LA1: Y5 I3"), "");
   World world;
   EXPECT_EQ(world.alarm(std::string(before) + "DEF AXIS AXV=(X)\nAX[AXV]=5 X6\n"), "12010");
   EXPECT_EQ(world.alarm(std::string(before) + "DEF AXIS AXV=(X)\nG0 AX[AXV]=5 RP=6\n"), "14280");

@@ -182,6 +182,16 @@ TEST(StudyFile, NamesMistakesWithPlaceAndWayOut) {
   ASSERT_EQ(both.size(), 2U);
   EXPECT_THAT(both[0].message, ::testing::HasSubstr("unknown key \"meen\""));
   EXPECT_THAT(both[1].message, ::testing::HasSubstr("the setup does not write part.pose.c"));
+  // So in each source.
+  const std::string misspelt =
+      "[[source]]\nquantity = \"part.pose.c\"\ndistribution = \"normal\"\nstandard_deviation = 1\nmeen = 3\n";
+  Diagnostics many;
+  EXPECT_FALSE(parsed(misspelt + misspelt, many));
+  for (std::size_t i = 0; i < many.size(); ++i)
+    if (many[i].message.find("the setup does not write part.pose.c") != std::string::npos) {
+      ASSERT_GT(i, 0U);
+      EXPECT_THAT(many[i - 1].message, ::testing::HasSubstr("unknown key \"meen\""));
+    }
   EXPECT_THAT(mistakesIn("[[source]]\nquantity = \"tool[PROB].ball_radius\"\ndistribution = \"normal\"\nmean = 3\n"
                          "standard_deviation = 1\n"),
               ::testing::HasSubstr("no entry of a list is meant"));

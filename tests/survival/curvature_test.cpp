@@ -236,6 +236,10 @@ TEST(Curvature, DependsOnHowFarACornerIs) {
   EXPECT_NEAR(near.away, 30, 1e-9);
   EXPECT_NEAR(near.oblique, 0, 1e-9);
   EXPECT_LT(near.at(300), near.at(30));
+  const CornerSize elsewhere =
+      *cornerOf({{50, -25, 3}, {70, -25, 3}, {40, -15, 3}, {40, 5, 3}}, {{0, 1, 0}, {0, 1, 0}, {1, 0, 0}, {1, 0, 0}});
+  EXPECT_NEAR(elsewhere.edge, 20, 1e-9);
+  EXPECT_NEAR(elsewhere.away, 30, 1e-9);
   // A pocket by four touches in pairs is no corner, nor is a line.
   EXPECT_FALSE(
       cornerOf({{9, 0, 0}, {-9, 0, 0}, {0, 9, 0}, {0, -9, 0}}, {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}}));
