@@ -172,6 +172,15 @@ bool ToKlartext::deselectsPlane(const Block& block, const CallProgram& call) {
          });
 }
 
+bool ToKlartext::tiltsPlane(const Block& block, const CallProgram& call) {
+  if (deselectsPlane(block, call)) return false;
+  const auto words = std::span<const Word>(block.words).subspan(call.arguments.first, call.arguments.count);
+  return std::ranges::any_of(words, [&](const Word& word) {
+    const bool isAngle = word.address >= 7 && word.address <= 9;
+    return isAngle && word.value.present() && literalOf(block, word.value) != std::optional(0.0);
+  });
+}
+
 void ToKlartext::listOtherDataSet(const Block& block, const CallProgram& call) {
   const auto words = std::span<const Word>(block.words).subspan(call.arguments.first, call.arguments.count);
   const auto found = std::ranges::find(words, 1U, &Word::address);
@@ -227,6 +236,7 @@ void ToKlartext::swivel(const Block& block, const CallProgram& call) {
   }
   forgetPosition();
   listOtherDataSet(block, call);
+  tilted_ = tiltsPlane(block, call);
   if (deselectsPlane(block, call)) {
     if (!retraction.empty()) line(fmt::format("L {} FMAX M140 {}", compensation_, retraction));
     if (!frameIsNone()) {

@@ -74,6 +74,7 @@ private:
     std::set<int> selected;  ///< zero offsets that were selected: the preset table has their rows
     std::optional<MeasuringTask::Log> log = MeasuringTask::Log::None;
     std::optional<bool> withoutLength = false;  ///< D0 is in effect
+    std::optional<bool> tilted = false;         ///< a plane of CYCLE800 is in effect
     std::optional<bool> hasTool = false;        ///< a tool other than 0 is in the spindle, or comes next
     bool operator==(const Modes&) const = default;
   };
@@ -186,6 +187,8 @@ private:
   void listOtherDataSet(const language::Block& block, const language::CallProgram& call);
   /// CYCLE800() and _TC = "0": the frames of the program and the rotary axes stay.
   static bool deselectsPlane(const language::Block& block, const language::CallProgram& call);
+  /// Angles other than 0, or that only the running program knows: PLANE SPATIAL, not PLANE RESET.
+  static bool tiltsPlane(const language::Block& block, const language::CallProgram& call);
 
   // single_touches.cpp
   void measuringBlock(const language::Block& block, const language::Command& command);
@@ -230,6 +233,8 @@ private:
   /// Lists it if the probe does not look for the surface as far as the SINUMERIK cycle does; tells it, once, if it
   /// finds more.
   void requireReach(const language::Block& block, const MeasuringTask& task);
+  /// Lists a plane of CYCLE800 with which the control refuses the touch probe cycle.
+  void listTiltedPlane(const language::Block& block, int cycle);
   /// Writes the touch probe cycle that carries out the task; its number.
   std::string writeTask(const MeasuringTask& task);
   /// A corner that is measured only, which no touch probe cycle does: four times cycle 427.
@@ -335,6 +340,7 @@ private:
     std::optional<Quantity> rotation = Quantity();
   };
   Frame frame_;
+  std::optional<bool> tilted_ = false;  ///< a plane of CYCLE800 is in effect
   bool incrementalDoubtful_ = false, motionDoubtful_ = false, compensationDoubtful_ = false, axisDoubtful_ = false,
        logDoubtful_ = false;
   PresetBefore before_;

@@ -12,6 +12,7 @@
 #include "conversion/to_klartext.hpp"
 #include "conversion/touch_places.hpp"
 #include "cycles/catalogue.hpp"
+#include "cycles/heidenhain/registry.hpp"
 
 /// Measuring cycles of SINUMERIK programs as touch probe cycles.
 namespace probewright::conversion {
@@ -145,6 +146,16 @@ void ToKlartext::requireReach(const Block& block, const MeasuringTask& task) {
           "this cycle looks for the surface along {} mm, but a touch probe with DIST = {} looks along its DIST only",
           numberText(std::ceil(length * 1000 - 1e-3) / 1000), numberText(probe_.travel)),
       "enter at least this path as DIST in the touch probe table, and give the same number to --dist");
+}
+
+void ToKlartext::listTiltedPlane(const Block& block, int cycle) {
+  const cycles::heidenhain::Entry* entry = cycles::heidenhain::findEntry(cycle);
+  if (tilted_ == std::optional(false) || entry == nullptr || entry->conditions.tilted.contains(control_)) return;
+  out_.list(block,
+            fmt::format("a plane of CYCLE800 {} in effect here, with which a HEIDENHAIN control stops at cycle {}; the "
+                        "SINUMERIK measures",
+                        tilted_ ? "is" : "may be", cycle),
+            "program CYCLE800() before the cycle");
 }
 
 std::string ToKlartext::writeTask(const MeasuringTask& task) {
@@ -369,6 +380,7 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
     }
     monitor(block, *safe, inspection, found);
   }
+  if (!measuresCorner) listTiltedPlane(block, std::stoi(heidenhainCall(task, control_, probe_).cycle));
   Results results;
   if (measuresCorner) {
     results = cornerByTouches(task);

@@ -144,6 +144,7 @@ void ToKlartext::follow(const Block& block, Modes& modes) const {
       followTransform(block, *transform, modes);
     } else if (const auto* call = std::get_if<CallProgram>(&instruction)) {
       const std::string_view name = block.at(call->name);
+      if (name == "CYCLE800") modes.tilted = tiltsPlane(block, *call);
       if (name == "CYCLE800" && !deselectsPlane(block, *call)) {
         modes.shift = std::array<double, 3>{};
         modes.rotation = 0;
@@ -168,6 +169,7 @@ bool ToKlartext::agree(Modes& with, const Modes& other) {
   std::erase_if(with.selected, [&](int row) { return !other.selected.contains(row); });
   meet(with.log, other.log);
   meet(with.withoutLength, other.withoutLength);
+  meet(with.tilted, other.tilted);
   meet(with.hasTool, other.hasTool);
   return !(with == before);
 }
@@ -289,7 +291,7 @@ bool ToKlartext::isNeutral(const Block& block) const {
   modes.rotation = 0.0123456789;
   modes.row = -1;
   for (const bool incremental : {false, true}) {
-    modes.incremental = modes.withoutLength = modes.hasTool = incremental;
+    modes.incremental = modes.withoutLength = modes.hasTool = modes.tilted = incremental;
     Modes left = modes;
     follow(block, left);
     if (!(left == modes)) return false;
@@ -352,6 +354,7 @@ void ToKlartext::adopt(const Block& block) {
   activeRow_ = modes.row;
   selectedRows_ = modes.selected;
   withoutLength_ = modes.withoutLength;
+  tilted_ = modes.tilted;
   hasTool_ = modes.hasTool;
   frame_ = {.known = modes.shift.has_value(),
             .shift = {},

@@ -108,6 +108,7 @@ void ToKlartext::toolMeasurement(const Block& block, const Call& call) {
   const int axisNumber = call.digit("S_MA", 1);
   if (axisNumber < 1 || axisNumber > 3) throw NotCarriedOver(fmt::format("S_MA = {} names no axis", axisNumber));
   const bool length = axisNumber == 3, teeth = call.digit("S_MVAR", 3) == 1;
+  listTiltedPlane(block, length ? firstNew : firstNew + 1);
   const std::set<int> wanted = wantedAfter(block);
   const int actual = length ? 8 : 10, difference = actual + 1;
   const Quantity height = here()[2];

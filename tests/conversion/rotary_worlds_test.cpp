@@ -147,6 +147,23 @@ TEST(ConvertTiltedPlane, NamesCyclesThatNeedTheUntiltedOne) {
   EXPECT_FALSE(listed(""));
 }
 
+/// What aligns another zero offset than the one in effect becomes cycle 400.
+TEST(ConvertTiltedPlane, NamesSinumerikCyclesThatNeedTheUntiltedOne) {
+  const auto listed = [](const std::string& before, const std::string& call) {
+    return lists(toKlartext("G17 G90 G710\nT1\nM6 D1\nG54\nG0 Z120\n" + before + "G0 X20 Y-10\nG0 Z-8\n" + call +
+                            "\nG0 Z120\nM30\n"),
+                 "stops at cycle 4");
+  };
+  const std::string other = "$P_UIFR[2,Z,RT]=0\nCYCLE998(105,10002,0,1,0,0,,8,20,102,1,40)";
+  const std::string tilts = "CYCLE800(0,\"\",0,57,0,0,0,0,5,0,0,0,0,1)\n";
+  EXPECT_TRUE(listed(tilts, other));
+  EXPECT_TRUE(listed("IF R1>0\n" + tilts + "ENDIF\n", other));
+  EXPECT_TRUE(listed(tilts, "CYCLE971(2,0,1,3,0,0,15,15)"));
+  EXPECT_FALSE(listed(tilts + "CYCLE800()\n", other));
+  EXPECT_FALSE(listed("CYCLE800(0,\"\",0,57,0,0,0,0,0,0,0,0,0,1)\n", other));
+  EXPECT_FALSE(listed(tilts, "CYCLE998(5,10002,0,1,0,0,,8,20,102,1,40)"));
+}
+
 TEST(ConvertTiltedPlane, MeasuresHolesInSwivelledPlanes) {
   Dice dice(8001);
   for (int world = 0; world < worlds; ++world) {
