@@ -1,8 +1,9 @@
-#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <tuple>
 
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "sinumerik/world.hpp"
 
@@ -453,9 +454,10 @@ TEST(SinumerikMotion, MeasuringBlocksLatchThePosition) {
   EXPECT_EQ(world.alarm("G0 X0\nMEAS=3 G1 X10 F100\n"), "14020");
 }
 
-/// An angle beyond the turn names the same place of the axis: told again, the axis stays there.
-TEST(SinumerikMotion, AnglesBeyondTheTurnOfAModuloAxisAreTakenWithinIt) {
-  for (const auto& [told, place] : {std::pair{"-20", 340.0}, std::pair{"AC(-380)", 340.0}, std::pair{"375", 15.0}}) {
+/// An angle below 0 or beyond the turn leads down or up to the same place within it: told again, the axis stays there.
+TEST(SinumerikMotion, AnglesBeyondTheTurnOfAModuloAxisDoNotTurnItOnAndOn) {
+  for (const auto& [told, place, back] :
+       {std::tuple{"-20", -20.0, -350.0}, std::tuple{"AC(-380)", -20.0, -350.0}, std::tuple{"375", 15.0, 10.0}}) {
     World world("mill5-table-table");
     const auto c = *world.machine.description().axisIndex("C");
     const std::string block = std::string("G0 C=") + told + "\n";
@@ -463,8 +465,9 @@ TEST(SinumerikMotion, AnglesBeyondTheTurnOfAModuloAxisAreTakenWithinIt) {
     EXPECT_NEAR(world.machine.position()[c], place, 1e-9) << told;
     world.run(block + block);
     EXPECT_NEAR(world.machine.position()[c], place, 1e-9) << told;
+    // Down from 340 as from 15.
     world.run("G0 C10\n");
-    EXPECT_NEAR(world.machine.position()[c], 10, 1e-9) << told;
+    EXPECT_NEAR(world.machine.position()[c], back, 1e-9) << told;
   }
 }
 

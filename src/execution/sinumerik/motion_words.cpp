@@ -26,8 +26,8 @@ double turnsTowards(double current, double angle) { return angle + 360 * std::ro
 
 }  // namespace
 
-/// The program angle to go to. A modulo axis goes to positions within the turn it stands in, -20 is 340 there; the
-/// others wherever they are told.
+/// The program angle to go to. A modulo axis counts from 0 again after a turn: it goes up to an angle greater than the
+/// one it shows and down to a smaller one, less than a turn either way. The others go wherever they are told.
 double PathMotion::rotaryTarget(std::size_t axis, WordMode mode, double value) const {
   const double current = programAngle(axis);
   const bool modulo = control_.channel.description().axes[axis].modulo;
@@ -52,8 +52,9 @@ double PathMotion::rotaryTarget(std::size_t axis, WordMode mode, double value) c
       break;
   }
   if (!modulo) return value;
-  const double withinTurn = value - 360 * std::floor(value / 360);
-  return 360 * std::floor(current / 360 + 1e-12) + withinTurn;
+  const double target = 360 * std::floor(current / 360 + 1e-12) + value, turns = (target - current) / 360;
+  const bool isThere = std::abs(std::remainder(target - current, 360.0)) < 1e-9;
+  return target - 360 * (isThere ? std::round(turns) : std::trunc(turns));
 }
 
 void PathMotion::readAxis(std::uint32_t address, WordMode mode, double value, Words& words) {
