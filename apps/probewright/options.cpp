@@ -108,6 +108,11 @@ std::string notNegative(const std::string& text) {
   return digits && text.size() <= 19 ? std::string() : text + " is not a whole number of 0 or more";
 }
 
+std::string fromOne(const std::string& text) {
+  const bool isZero = text.find_first_not_of('0') == std::string::npos;
+  return isZero || !notNegative(text).empty() ? text + " is not a whole number of 1 or more" : std::string();
+}
+
 std::string finite(const std::string& text) {
   double value = 0;
   const bool read = CLI::detail::lexical_cast(text, value);

@@ -44,6 +44,9 @@ void addLanguage(CLI::App& command, std::string& language, const std::string& ab
 /// would wrap it around.
 std::string notNegative(const std::string& text);
 
+/// The same of a number that counts from 1.
+std::string fromOne(const std::string& text);
+
 /// What is wrong with a number that must be finite; empty if nothing is. CLI::Range lets NaN through.
 std::string finite(const std::string& text);
 

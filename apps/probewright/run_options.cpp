@@ -75,7 +75,7 @@ Subcommand addRun(CLI::App& app) {
   run->add_option("--search", arguments->searchLine,
                   "Begin at this line of the program as if all before it had run, without motion and measuring "
                   "(SINUMERIK: block search; HEIDENHAIN: mid-program startup)")
-      ->check(notNegative)
+      ->check(fromOne)
       ->type_name("LINE");
   addLanguage(*run, arguments->language, "Language of the summary, the report and the control's messages and logs");
   run->add_option("--measuring-log", arguments->measuringLogs,

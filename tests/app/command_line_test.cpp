@@ -25,6 +25,7 @@ TEST(CommandLine, NamesTheWordItDoesNotKnow) {
        std::vector<std::array<std::string, 3>>{{"--on-stop", "foo", "foo is not one of continue, abort, ask"},
                                                {"--language", "fr", "fr is not one of en, de, ru, sv, zh, pl"},
                                                {"--step-limit", "-1", "-1 is not a whole number of 0 or more"},
+                                               {"--search", "0", "0 is not a whole number of 1 or more"},
                                                {"--seed", "x", "x is not a whole number"}}) {
     const Answer answer = probewright({"run", program, "--setup", setup, option, value});
     EXPECT_EQ(answer.exit, 2) << option;
