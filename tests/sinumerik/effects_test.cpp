@@ -6,6 +6,17 @@
 namespace probewright::language::sinumerik {
 namespace {
 
+/// A word that is written otherwise than its name is looked for at the first word of its block.
+TEST(SinumerikEffects, HaveAPlaceHoweverTheyAreWritten) {
+  for (const auto& [block, column] : {std::pair("N10 T2=1", 5U), {"N10 G90 T2=1", 9U}, {"N10 G90 T2 =1", 5U}}) {
+    const auto program = SinumerikProgram::fromText("test.mpf", std::string(block) + "\nM30\n");
+    const Diagnostics found = check(*program);
+    ASSERT_FALSE(found.empty()) << block;
+    EXPECT_EQ(found.front().message, "T2= is not carried out");
+    EXPECT_EQ(found.front().place.column, column) << block;
+  }
+}
+
 TEST(SinumerikEffects, WhatIsNotCarriedOutIsNamedOnceAndRefusedUnderStrict) {
   const std::pair<const char*, const char*> words[] = {
       {"M25", "M25"},
