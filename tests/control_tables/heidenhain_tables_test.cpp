@@ -59,6 +59,14 @@ TEST(ToolTable, NamesAnEntryThatIsNoNumber) {
   EXPECT_EQ(table->number("1", "L"), std::nullopt);
 }
 
+TEST(ToolTable, NamesANumberOfTeethThatIsNotWhole) {
+  Diagnostics diagnostics;
+  ASSERT_TRUE(TypedTable::parse("BEGIN TOOL.T MM\nT  L      CUT\n1  12.5   2.0\n2  12.5   2.5\n[END]\n", "TOOL.T",
+                                toolColumns(), diagnostics));
+  ASSERT_EQ(diagnostics.size(), 1U);
+  EXPECT_THAT(format(diagnostics[0]), HasSubstr("TOOL.T:4:11: error: column CUT takes a whole number"));
+}
+
 TEST(ToolTable, InchTablesConvertAtTheBorder) {
   Diagnostics diagnostics;
   auto table = TypedTable::parse("BEGIN TOOL.T INCH\nT  L          ANGLE\n1  +2.00000   +30.000\n[END]\n", "T",

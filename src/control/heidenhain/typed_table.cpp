@@ -87,13 +87,18 @@ Diagnostics TypedTable::check() const {
     for (const ColumnSpec& column : columns_) {
       if (column.kind == CellKind::Text) continue;
       const auto entry = table_.cell(row, nameInFile(column.name()));
-      if (!entry || entry->empty() || parseDecimal(*entry)) continue;
-      diagnostics.push_back({Severity::Error,
-                             table_.place(row, nameInFile(column.name())),
-                             fmt::format("column {} takes a number", nameInFile(column.name())),
-                             entry->substr(0, 60),
-                             "write a number with a decimal point, or leave the entry empty",
-                             {}});
+      if (!entry || entry->empty()) continue;
+      const auto value = parseDecimal(*entry);
+      const bool isWhole = column.kind == CellKind::Integer;
+      if (value && (!isWhole || *value == std::round(*value))) continue;
+      diagnostics.push_back(
+          {Severity::Error,
+           table_.place(row, nameInFile(column.name())),
+           fmt::format("column {} takes a {}number", nameInFile(column.name()), isWhole ? "whole " : ""),
+           entry->substr(0, 60),
+           isWhole ? "write a number without decimal places, or leave the entry empty"
+                   : "write a number with a decimal point, or leave the entry empty",
+           {}});
     }
   }
   return diagnostics;
