@@ -81,13 +81,13 @@ const char* kindOf(const TopoDS_Face& face) {
 
 bool isFlat(const TopoDS_Face& face) { return BRepAdaptor_Surface(face, Standard_False).GetType() == GeomAbs_Plane; }
 
-/// The line along which the seam of a cone runs over its parameters: u is the same all along, but for rounding. Nothing
-/// if it is no such line, or is one to the last bit.
+/// The line along which the seam of a cone runs over its parameters, with the same u all along; nothing if it is not
+/// such a line but for rounding.
 Handle(Geom2d_Line) uprightSeam(const TopoDS_Edge& edge, const TopoDS_Face& cone) {
   constexpr double kRounding = 1e-9;
   double first = 0, last = 0;
   const auto line = Handle(Geom2d_Line)::DownCast(BRep_Tool::CurveOnSurface(edge, cone, first, last));
-  if (line.IsNull() || line->Direction().X() == 0 || std::abs(line->Direction().X()) > kRounding) return {};
+  if (line.IsNull() || std::abs(line->Direction().X()) > kRounding) return {};
   const double u = line->Value((first + last) / 2).X();
   return new Geom2d_Line(gp_Pnt2d(u, line->Location().Y()), gp_Dir2d(0, line->Direction().Y()));
 }
