@@ -11,8 +11,12 @@ namespace {
 
 /// A surface whose coordinates are cubic polynomials of both parameters.
 struct Cubic {
-  std::array<std::array<Vector3, 4>, 4> c{};  ///< of u^i v^j; zero where i + j > 3
+  std::array<std::array<Vector3, 4>, 4> c;  ///< of u^i v^j, where i + j < 4
 
+  Cubic() {
+    for (auto& row : c)
+      row.fill(Vector3::Zero());
+  }
   Vector3 derivative(double u, double v, int du, int dv) const {
     Vector3 sum = Vector3::Zero();
     for (int i = du; i < 4; ++i)
