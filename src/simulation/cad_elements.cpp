@@ -19,6 +19,7 @@
 #include "simulation/cad_deviation.hpp"
 #include "simulation/cad_vectors.hpp"
 #include "simulation/face_grid.hpp"
+#include "simulation/loose_sides.hpp"
 #include "simulation/mesh_limits.hpp"
 
 namespace probewright::simulation {
@@ -167,32 +168,6 @@ std::vector<CadElement> gridElements(const CadFace& exact, std::uint32_t owner, 
   return elements;
 }
 
-/// The sides of a mesh that belong to one triangle only.
-class LooseSides {
-public:
-  explicit LooseSides(const Poly_Triangulation& mesh) {
-    std::vector<std::pair<int, int>> all;
-    all.reserve(3 * static_cast<std::size_t>(mesh.NbTriangles()));
-    for (int i = 1; i <= mesh.NbTriangles(); ++i) {
-      int a = 0, b = 0, c = 0;
-      mesh.Triangle(i).Get(a, b, c);
-      for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
-        all.push_back(std::minmax(from, to));
-    }
-    std::ranges::sort(all);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      const bool isTwice = (i > 0 && all[i - 1] == all[i]) || (i + 1 < all.size() && all[i + 1] == all[i]);
-      if (!isTwice) sides_.push_back(all[i]);
-    }
-  }
-  bool contains(int node, int other) const {
-    return std::ranges::binary_search(sides_, std::pair<int, int>(std::minmax(node, other)));
-  }
-
-private:
-  std::vector<std::pair<int, int>> sides_;  ///< the smaller node first, in order
-};
-
 constexpr int kMostHalvings = 12;
 
 /// Gives an element to `keep`, or its halves where the face leaves it further than is enough, as the mesher's look at a
@@ -305,6 +280,12 @@ std::vector<CadElement> faceElements(const CadFace& exact, const TopoDS_Face& fa
   // Triangles that leave a part of the face open would hide it.
   constexpr double kLeastCover = 0.9;
   if (area < kLeastCover * exact.domain.area()) return gridElements(exact, owner, deflection);
+  if (!straight && !endsAtItsEdges(face, mesh, location)) {
+    for (CadElement& element : gridElements(exact, owner, deflection)) {
+      element.onFace = false;
+      elements.push_back(element);
+    }
+  }
   return elements;
 }
 

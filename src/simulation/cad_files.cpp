@@ -20,7 +20,7 @@ namespace {
 
 /// To be counted up whenever an import makes something else of the same file, also if only its layout in memory
 /// changes.
-constexpr int kCacheVersion = 27;
+constexpr int kCacheVersion = 28;
 
 /// About faces that STEP does not tell unmistakably: of a circle that meets its axis OpenCASCADE may turn the other
 /// arc.

@@ -416,7 +416,7 @@ private:
              "the file is damaged in this entity; export or copy the part again");
     }
     for (const Grid& grid : grids_) {
-      if (numberIn(grid.cell) == 0 && grid.cell.starts_with("0.000")) {
+      if (grid.cell == "0.000") {
         remark(part, 0, fmt::format("face {} of {} ({}) cannot be meshed and is missing", grid.face, faces_, grid.kind),
                "the probe passes through where it should be; export the part again");
         continue;

@@ -366,8 +366,9 @@ void mesh(const TopoDS_Shape& shape, const TransferOrder& order, const ChildVoic
   options.begins = [&](int face) { voice.say(fmt::format("begin {}", face)); };
   options.goesOn = [&](int face) { voice.say(fmt::format("on {}", face)); };
   options.ends = [&](int face) { voice.say(fmt::format("end {}", face)); };
+  const auto upwards = [](double cell) { return std::ceil(cell * 1000) / 1000; };
   for (const GridFace& grid : meshFaces(shape, order.deflection, options))
-    voice.say(fmt::format("grid {} {:.3f} {}", grid.face, grid.cell, grid.kind));
+    voice.say(fmt::format("grid {} {:.3f} {}", grid.face, upwards(grid.cell), grid.kind));
 }
 
 template <class Work>

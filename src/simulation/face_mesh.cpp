@@ -1,7 +1,9 @@
 #include "simulation/face_mesh.hpp"
 
+#include <BRepAdaptor_Curve.hxx>
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_Copy.hxx>
 #include <BRepMesh_Context.hxx>
 #include <BRepMesh_FaceDiscret.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
@@ -13,6 +15,7 @@
 #include <Geom2d_Line.hxx>
 #include <IMeshData_Face.hxx>
 #include <Message_ProgressIndicator.hxx>
+#include <Poly_PolygonOnTriangulation.hxx>
 #include <Poly_Triangulation.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
@@ -20,12 +23,15 @@
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <algorithm>
+#include <gp_Lin.hxx>
 #include <limits>
 #include <map>
 #include <mutex>
 #include <stdexcept>
+#include <vector>
 
 #include "simulation/face_grid.hpp"
+#include "simulation/loose_sides.hpp"
 
 namespace probewright::simulation {
 namespace {
@@ -211,10 +217,62 @@ bool hasTriangles(const TopoDS_Face& face, int mostPoints = std::numeric_limits<
   return !mesh.IsNull() && mesh->HasUVNodes() && mesh->NbTriangles() > 0 && mesh->NbNodes() <= mostPoints;
 }
 
+/// True if a face has triangles, and these end at its edges: in narrow places long chords can cross each other.
+bool isWhole(const TopoDS_Face& face) {
+  TopLoc_Location location;
+  const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, location);
+  return hasTriangles(face) && endsAtItsEdges(face, mesh, location);
+}
+
+/// Gives a face the mesh of a copy of it, its edges' chords too.
+void takeMesh(const TopoDS_Face& face, const TopoDS_Face& copy) {
+  TopLoc_Location location;
+  const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(copy, location);
+  if (mesh.IsNull()) return;
+  const BRep_Builder builder;
+  BRepTools::Clean(face);
+  builder.UpdateFace(face, mesh);
+  TopExp_Explorer from(copy, TopAbs_EDGE);
+  for (TopExp_Explorer to(face, TopAbs_EDGE); to.More() && from.More(); to.Next(), from.Next()) {
+    const TopoDS_Edge edge = TopoDS::Edge(to.Current().Oriented(TopAbs_FORWARD));
+    const TopoDS_Edge its = TopoDS::Edge(from.Current().Oriented(TopAbs_FORWARD));
+    const auto chords = BRep_Tool::PolygonOnTriangulation(its, mesh, location);
+    if (chords.IsNull()) continue;
+    if (BRep_Tool::IsClosed(its, mesh, location)) {
+      const auto otherSide = BRep_Tool::PolygonOnTriangulation(TopoDS::Edge(its.Reversed()), mesh, location);
+      builder.UpdateEdge(edge, chords, otherSide, mesh, location);
+    } else {
+      builder.UpdateEdge(edge, chords, mesh, location);
+    }
+  }
+}
+
 /// True for borders that OpenCASCADE got wrong: they run to and fro, and no place lies within.
 bool enclosesNothing(const TrimmedDomain& domain) {
   constexpr double kLeastShare = 1e-9;  // of the box about the border
   return !domain.isEverywhere() && domain.area() <= kLeastShare * (domain.high() - domain.low()).prod();
+}
+
+/// True for faces whose border runs to and fro on one straight line, as CAD systems leave where a narrow face has come
+/// to nothing.
+bool liesOnALine(const TopoDS_Face& face) {
+  constexpr double kWidth = 1e-6;  // mm
+  std::vector<gp_Pnt> corners;
+  for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next()) {
+    const TopoDS_Edge edge = TopoDS::Edge(edges.Current());
+    if (BRep_Tool::Degenerated(edge)) continue;
+    const BRepAdaptor_Curve curve(edge);
+    if (curve.GetType() != GeomAbs_Line) return false;
+    corners.push_back(curve.Value(curve.FirstParameter()));
+    corners.push_back(curve.Value(curve.LastParameter()));
+  }
+  if (corners.empty()) return false;
+  const gp_Pnt begin = corners.front();
+  const auto distance = [&](const gp_Pnt& corner) { return begin.Distance(corner); };
+  const gp_Pnt end = *std::ranges::max_element(corners, {}, distance);
+  if (begin.Distance(end) <= kWidth) return true;
+  const gp_Lin line(begin, gp_Dir(gp_Vec(begin, end)));
+  return std::ranges::all_of(corners, [&](const gp_Pnt& corner) { return line.Distance(corner) <= kWidth; });
 }
 
 }  // namespace
@@ -241,22 +299,25 @@ bool isMeshed(const TopoDS_Shape& shape, double deflection) {
 }
 
 std::vector<GridFace> meshFaces(const TopoDS_Shape& shape, double deflection, const FaceMeshOptions& options) {
-  const FaceNumbers numbers = numbered(shape);
+  FaceNumbers numbers = numbered(shape);
   GivenUp givenUp;
   BRepTools::Clean(shape);
   straightenSeams(shape);
-  const Handle(BRepMesh_Context) context = new BRepMesh_Context();
-  context->SetFaceDiscret(new BRepMesh_FaceDiscret(new WatchedAlgos(numbers, options, givenUp)));
-  BRepMesh_IncrementalMesh mesher;
-  mesher.SetShape(shape);
-  IMeshTools_Parameters& parameters = mesher.ChangeParameters();
   const double size = sizeOf(shape);
   const double fine = std::min(deflection, coarsest(size));
-  parameters.Deflection = std::max(kAlongEdges * fine, kAlongEdgesOfSize * size);
-  parameters.DeflectionInterior = std::max(kInteriorDeflections * fine, kInteriorOfSize * size);
-  parameters.Angle = kAngle;
-  parameters.InParallel = options.parallel;
-  mesher.Perform(context);
+  const auto tryMesh = [&](const TopoDS_Shape& some, double finer) {
+    const Handle(BRepMesh_Context) context = new BRepMesh_Context();
+    context->SetFaceDiscret(new BRepMesh_FaceDiscret(new WatchedAlgos(numbers, options, givenUp)));
+    BRepMesh_IncrementalMesh mesher;
+    mesher.SetShape(some);
+    IMeshTools_Parameters& parameters = mesher.ChangeParameters();
+    parameters.Deflection = std::max(kAlongEdges * fine, kAlongEdgesOfSize * size) / finer;
+    parameters.DeflectionInterior = std::max(kInteriorDeflections * fine, kInteriorOfSize * size) / finer;
+    parameters.Angle = kAngle;
+    parameters.InParallel = options.parallel;
+    mesher.Perform(context);
+  };
+  tryMesh(shape, 1);
 
   std::vector<GridFace> grids;
   std::set<int> seen;
@@ -264,11 +325,22 @@ std::vector<GridFace> meshFaces(const TopoDS_Shape& shape, double deflection, co
     const TopoDS_Face face = TopoDS::Face(faces.Current().Oriented(TopAbs_FORWARD));
     const int number = numbers.at(face.TShape().get());
     if (!seen.insert(number).second) continue;
+    const bool isTried = !options.left.contains(number) && !(options.leaveAll && !isFlat(face));
+    for (const double finer : {4, 16}) {
+      if (!isTried || isWhole(face) || givenUp.contains(number)) break;
+      // A copy, as edges that have chords of a neighbour keep these.
+      const TopoDS_Face bare = TopoDS::Face(face.Located(TopLoc_Location()));
+      const TopoDS_Face copy = TopoDS::Face(BRepBuilderAPI_Copy(bare, Standard_False, Standard_False).Shape());
+      numbers[copy.TShape().get()] = number;
+      tryMesh(copy, finer);
+      if (isWhole(copy) || !hasTriangles(face)) takeMesh(bare, copy);
+    }
     if (hasTriangles(face, options.mostPoints) && !givenUp.contains(number)) {
       TopLoc_Location location;
       BRep_Tool::Triangulation(face, location)->Deflection(deflection);
       continue;
     }
+    if (liesOnALine(face)) continue;
     GridFace found{number, kindOf(face), 0, 0};
     try {
       const CadFace exact = cadFace(TopoDS::Face(face.Located(TopLoc_Location())));
@@ -283,7 +355,7 @@ std::vector<GridFace> meshFaces(const TopoDS_Shape& shape, double deflection, co
     } catch (const Standard_Failure&) {    // the face stays without triangles, which its entry tells
     } catch (const std::runtime_error&) {  // the same
     }
-    grids.push_back(std::move(found));
+    if (found.cell == 0 || found.cell > deflection) grids.push_back(std::move(found));
   }
   return grids;
 }
