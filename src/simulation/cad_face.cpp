@@ -14,6 +14,7 @@
 #include <Geom_RectangularTrimmedSurface.hxx>
 #include <Geom_SurfaceOfLinearExtrusion.hxx>
 #include <Geom_SurfaceOfRevolution.hxx>
+#include <Geom_ToroidalSurface.hxx>
 #include <Geom_TrimmedCurve.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
@@ -284,18 +285,46 @@ Handle(Geom_Surface) surfaceWithoutLimits(const Handle(Geom_Surface) & surface) 
   return surface;
 }
 
-bool meetsItsAxis(const CadFace& face) {
+namespace {
+
+/// The axis and the circle's radius of a surface that a circle makes as it turns; nothing of other surfaces.
+struct TurnedCircle {
+  gp_Lin axis;
+  double radius;
+  bool meetsAxis;
+};
+
+std::optional<TurnedCircle> turnedCircle(const CadFace& face) {
   constexpr double kNearly = 1e-6;
-  for (const AnalyticSurface& sheet : face.forms) {
-    if (sheet.kind == AnalyticSurface::Kind::Torus) return sheet.tubeRadius > std::abs(sheet.radius) * (1 - kNearly);
+  if (const auto torus = Handle(Geom_ToroidalSurface)::DownCast(face.surface)) {
+    const bool meets = torus->MinorRadius() > std::abs(torus->MajorRadius()) * (1 - kNearly);
+    return TurnedCircle{gp_Lin(torus->Axis()), torus->MinorRadius(), meets};
   }
   const auto revolution = Handle(Geom_SurfaceOfRevolution)::DownCast(face.surface);
-  if (revolution.IsNull()) return false;
+  if (revolution.IsNull()) return std::nullopt;
   const auto circle = Handle(Geom_Circle)::DownCast(revolution->BasisCurve());
-  if (circle.IsNull()) return false;
-  const double arm = gp_Lin(revolution->Axis()).Distance(circle->Location());
+  if (circle.IsNull()) return std::nullopt;
+  const gp_Lin axis(revolution->Axis());
+  const double arm = axis.Distance(circle->Location());
   // One that is turned about its own diameter makes a sphere.
-  return arm > kNearly * circle->Radius() && circle->Radius() > arm * (1 - kNearly);
+  const bool meets = arm > kNearly * circle->Radius() && circle->Radius() > arm * (1 - kNearly);
+  return TurnedCircle{axis, circle->Radius(), meets};
+}
+
+}  // namespace
+
+bool reachesItsAxis(const CadFace& face) {
+  const auto turned = turnedCircle(face);
+  if (!turned || !turned->meetsAxis) return false;
+  if (face.domain.isEverywhere()) return true;
+  constexpr int kPlaces = 400;
+  constexpr double kNear = 0.01;  // more than half the way between two places
+  const Vector2 low = face.domain.low(), high = face.domain.high();
+  for (int i = 0; i <= kPlaces; ++i) {
+    const gp_Pnt place = face.surface->Value(low.x(), low.y() + (high.y() - low.y()) * i / kPlaces);
+    if (turned->axis.Distance(place) <= kNear * turned->radius) return true;
+  }
+  return false;
 }
 
 CadFace cadFace(const TopoDS_Face& face, std::optional<TrimmedDomain> domain) {

@@ -58,8 +58,10 @@ CadFace cadFace(const TopoDS_Face& face, std::optional<TrimmedDomain> domain = s
 /// so does it tell its periods.
 Handle(Geom_Surface) surfaceWithoutLimits(const Handle(Geom_Surface) & surface);
 
-/// True for a face of a lemon, apple, spindle or horn torus: a circle turned about an axis that it meets.
-bool meetsItsAxis(const CadFace& face);
+/// True for a face of a lemon, apple, spindle or horn torus, a circle turned about an axis that it meets, if the face
+/// goes as far as the axis: there one of the circle's arcs passes into the other. A face that ends before lies on the
+/// arc that its edges lie on.
+bool reachesItsAxis(const CadFace& face);
 
 /// Appends the parameters of a curve's points so that chords stay within a tolerance. `deviates(a, b)` tells whether
 /// the chord between two parameters does not.

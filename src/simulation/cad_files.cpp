@@ -23,14 +23,14 @@ namespace {
 constexpr int kCacheVersion = 28;
 
 /// About faces that STEP does not tell unmistakably: of a circle that meets its axis OpenCASCADE may turn the other
-/// arc.
+/// arc, if the face goes as far as the axis.
 void warnOfDoubtfulArcs(const CadModel& model, Diagnostics& remarks) {
-  const auto doubtful = std::ranges::count_if(model.faces, meetsItsAxis);
+  const auto doubtful = std::ranges::count_if(model.faces, reachesItsAxis);
   if (doubtful == 0) return;
   const Vector3 size = model.bounds.maximum - model.bounds.minimum;
   remarks.push_back({Severity::Warning,
                      {},
-                     fmt::format("{} of {} faces are circles turned about an axis that they meet (lemon, apple, horn "
+                     fmt::format("{} of {} faces are circles turned about an axis that they reach (lemon, apple, horn "
                                  "torus): such faces are sometimes read with the wrong part of the circle",
                                  doubtful, model.faces.size()),
                      {},
