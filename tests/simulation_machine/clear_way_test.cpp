@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -69,6 +70,49 @@ TEST(ClearWay, APathIsTheSumOfItsPieces) {
   }
   EXPECT_GT(clear, 40);
   EXPECT_GT(stopped, 15);
+}
+
+/// Tool touch probes of a lathe stand on its bed, whatever the main spindle does: no path misses them for that, neither
+/// with a tool that touches one already nor with one that comes from afar.
+TEST(ClearWay, PathsMeetProbesOnTheBedOfALathe) {
+  Truth truth = perfectWorld("lathe2c");
+  testing_support::placeToolProbe(truth, Box({100, -4, 96}, {108, 4, 104}));
+  TrueTool pin;
+  pin.number = 2;
+  pin.name = "PIN";
+  pin.kind = ToolKind::Cutter;
+  pin.length = 50;
+  pin.radius = 3;
+  truth.tools.push_back(pin);
+  for (const int number : {1, 2}) {
+    for (const double turned : {0.0, 90.0}) {
+      for (const double aside : {40.0, 0.0}) {
+        SCOPED_TRACE(fmt::format("tool {} at C{}, {} mm aside", number, turned, aside));
+        Truth here = truth;
+        here.start = positions({104 + aside, 260, turned});
+        VirtualMachine together(here), apart(here);
+        together.insertTool({number, ""});
+        apart.insertTool({number, ""});
+        std::vector<machine::PathPiece> path;
+        for (int k = 1; k <= 40; ++k)
+          path.push_back({positions({104 + aside + (k % 2 == 0 ? 0.5 : 0), 260 - 4.0 * k, turned}), Feed::at(2000)});
+        const auto whole = together.moveAlong(path);
+        machine::PathResult expected{MoveEnd::Reached, path.size(), {}};
+        for (std::size_t k = 0; k < path.size() && expected.end == MoveEnd::Reached; ++k) {
+          auto piece = apart.move(path[k].target, path[k].feed);
+          if (piece.end != MoveEnd::Reached) expected = {piece.end, k, piece.detail};
+        }
+        EXPECT_EQ(whole.end == MoveEnd::Reached, aside > 0) << whole.detail;
+        EXPECT_EQ(whole.end, expected.end);
+        EXPECT_EQ(whole.reached, expected.reached);
+        EXPECT_EQ(together.position(), apart.position());
+        // What touches stands still until it is taken away.
+        const auto further = together.moveAlong(path);
+        EXPECT_EQ(further.end == MoveEnd::Reached, aside > 0) << further.detail;
+        EXPECT_EQ(further.reached, aside > 0 ? path.size() : 0);
+      }
+    }
+  }
 }
 
 /// The way back from a touch is the one that the probe has come by: as if it had been searched anew, as it is for a

@@ -323,6 +323,60 @@ TEST(DamagedParts, WhoseFacesDoNotFitTheirEdgesAreNamed) {
   EXPECT_THAT(saidOf(changed("=TOROIDAL_SURFACE", ",20.,2.)", ",20.,2.5)")), HasSubstr(misfit + "0.500 mm"));
 }
 
+/// A damaged entity that no face needs may be why a body is not as it should be; a skin is just a skin.
+TEST(DamagedParts, AreExplainedByWhatIsDamagedWhereSomethingIsWrong) {
+  const std::string remark = "CIRCLE cannot be read", skin = "meets the faces from both sides";
+  for (const bool closed : {true, false}) {
+    StepFile file;
+    file.add("CIRCLE('',$,$)");
+    const std::vector<int> faces = revolvedFaces(file, cap(), Pose::Identity(), {});
+    const std::string shell = fmt::format("OPEN_SHELL('',({}))", listOf(faces));
+    const int body =
+        closed ? file.solid(faces) : file.add(fmt::format("SHELL_BASED_SURFACE_MODEL('',(#{}))", file.add(shell)));
+    const std::string good = file.withItems({body});
+    EXPECT_EQ(saidOf(good).find(skin) == std::string::npos, closed);
+    EXPECT_THAT(saidOf(good), ::testing::Not(HasSubstr(remark)));
+    std::string bad = good;
+    bad.replace(bad.find(",9.)", bad.find("=SPHERICAL_SURFACE")), 4, ",8.)");
+    EXPECT_EQ(saidOf(bad).find(remark) != std::string::npos, closed) << saidOf(bad);
+  }
+}
+
+/// A corner that lies beside the curves that should end there.
+TEST(DamagedParts, WhoseCornersLieBesideTheirEdgesAreNamed) {
+  for (const double aside : {0.004, 0.25, 0.8}) {
+    StepFile file;
+    const auto patch = [&](double off) {
+      const std::array<Vector3, 4> corners{Vector3(0, 0, 0), Vector3(40, 0, 0), Vector3(40, 30, 0), Vector3(0, 30, 0)};
+      std::array<int, 4> vertices{};
+      for (std::size_t i = 0; i < 4; ++i)
+        vertices[i] = file.vertex(i == 2 ? Vector3(corners[i] + Vector3(0, 0, off)) : corners[i]);
+      std::vector<int> uses;
+      for (std::size_t i = 0; i < 4; ++i) {
+        const Vector3 along = (corners[(i + 1) % 4] - corners[i]).normalized();
+        const int vector = file.add(fmt::format("VECTOR('',#{},1.)", file.direction(along)));
+        const int line = file.add(fmt::format("LINE('',#{},#{})", file.point(corners[i]), vector));
+        const int edge =
+            file.add(fmt::format("EDGE_CURVE('',#{},#{},#{},.T.)", vertices[i], vertices[(i + 1) % 4], line));
+        uses.push_back(file.add(fmt::format("ORIENTED_EDGE('',*,*,#{},.T.)", edge)));
+      }
+      const int bound = file.add(
+          fmt::format("FACE_OUTER_BOUND('',#{},.T.)", file.add(fmt::format("EDGE_LOOP('',({}))", listOf(uses)))));
+      const int plane = file.add(fmt::format("PLANE('',#{})", file.axes(Pose::Identity())));
+      const int face = file.add(fmt::format("ADVANCED_FACE('',(#{}),#{},.T.)", bound, plane));
+      return file.add(
+          fmt::format("SHELL_BASED_SURFACE_MODEL('',(#{}))", file.add(fmt::format("OPEN_SHELL('',(#{}))", face))));
+    };
+    file.represent(file.product("skin"), {patch(aside)}, "MANIFOLD_SURFACE_SHAPE_REPRESENTATION");
+    const std::string said = saidOf(file.text());
+    const std::string misfit = "ADVANCED_FACE does not fit its edges: they, their corners and its surface are up to ";
+    if (aside < 0.01)
+      EXPECT_THAT(said, ::testing::Not(HasSubstr("does not fit")));
+    else
+      EXPECT_THAT(said, HasSubstr(fmt::format("{}{:.3f} mm", misfit, aside)));
+  }
+}
+
 TEST(WrittenParts, OfNestedAssembliesInSeveralUnitsAreMetWhereTheyAre) {
   std::mt19937_64 random(207);
   for (int round = 0; round < 4; ++round) {
