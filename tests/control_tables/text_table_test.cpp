@@ -182,6 +182,26 @@ TEST(TextTable, GrowsAnEmptyTableWithoutALastLineEnd) {
   EXPECT_EQ(read(carriageReturn.bytes()).keys(), std::vector<std::string>{"2"});
 }
 
+/// Messages show the line as it stands; only control characters, which no terminal should get, are replaced.
+TEST(TextTable, ShowsLinesAsTheyAre) {
+  const std::string noUnit = "BEGIN TOOL T !~ \x1f\x01 #";
+  Diagnostics diagnostics;
+  read(noUnit + "\nT    L\n1    2\n[END]\n", &diagnostics);
+  ASSERT_FALSE(diagnostics.empty());
+  EXPECT_EQ(diagnostics.front().excerpt, "BEGIN TOOL T !~ ?? #");
+  Diagnostics others;
+  const auto none = TextTable::parse("no table here\tat all\n", "T.T", others);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().excerpt, "no table here?at all");
+  EXPECT_EQ(none.error().place.line, 1U);
+  const auto later = TextTable::parse("\n  \n no table here\n", "T.T", others);
+  ASSERT_FALSE(later);
+  EXPECT_EQ(later.error().place.line, 3U);
+  const auto endless = TextTable::parse(std::string(500, 'x') + "\n", "T.T", others);
+  ASSERT_FALSE(endless);
+  EXPECT_EQ(endless.error().excerpt, std::string(120, 'x'));
+}
+
 TEST(TextTable, RefusesWhatDoesNotFit) {
   TextTable table = read(plainTable);
   const auto wide = table.setNumber("1", "R", 123456.7);

@@ -181,6 +181,32 @@ TEST(ConvertJobs, CountEachProgramInItsOwnUnit) {
   }
 }
 
+/// Several programs, of which only some count in another unit.
+TEST(ConvertJobs, GoBackToTheOwnUnitAfterThoseCallsThatLeaveAnother) {
+  Dice dice(11);
+  const Vector3 n = World(dice).nominal();
+  for (const bool mainInInches : {true, false}) {
+    SCOPED_TRACE(mainInInches);
+    const double own = mainInInches ? 25.4 : 1, other = mainInInches ? 1 : 25.4;
+    const std::string one = mainInInches ? "INCH" : "MM", two = mainInInches ? "MM" : "INCH";
+    const std::string up = fmt::format("L Z{:+.6f} R0 FMAX\n", (n.z() + 60) / own);
+    const auto part = [&](const std::string& name, const std::string& unit, double size, double x) {
+      return std::pair<const std::string, std::string>(
+          name + ".H",
+          fmt::format("BEGIN PGM {} {}\n{}END PGM {} {}\n", name, unit, downwards(n, x, -40, size), name, unit));
+    };
+    expectTheSame(
+        {{"MAIN.H",
+          fmt::format("BEGIN PGM MAIN {0}\nTOOL CALL 1 Z\n{1}CALL PGM AB\n{2}CALL PGM BC\n{3}CALL PGM CD\n{2}{1}"
+                      "M30\nEND PGM MAIN {0}\n",
+                      one, up, downwards(n, -40, -30, own), downwards(n, 30, -20, own))},
+         part("AB", one, own, 10),
+         part("BC", two, other, 12),
+         part("CD", one, own, 14)},
+        "MAIN.H", ProgramLanguage::Sinumerik);
+  }
+}
+
 std::string downwards978(const Vector3& n, double x, double y, double unit) {
   return fmt::format("G0 X{:.6f} Y{:.6f}\nG0 Z{:.6f}\nCYCLE978(0,,,1,{:.6f},{:.6f},{:.6f},3,2,1)\nG0 Z{:.6f}\n",
                      (n.x() + x) / unit, (n.y() + y) / unit, (n.z() + 6) / unit, n.z() / unit, 5 / unit, 4 / unit,

@@ -78,6 +78,22 @@ TEST(SinumerikValues, ExpressionsAreWorthWhatTheLanguageSays) {
     EXPECT_NEAR(world.value(text), expected, 1e-12 * std::max(1.0, std::abs(expected))) << text;
 }
 
+/// Arrays have the elements that their declaration says, data of the control those that they have.
+TEST(SinumerikValues, IsvarKnowsIndices) {
+  const std::pair<const char*, double> cases[] = {
+      {"LIST_", 1},        {"LIST_[0]", 1},     {"LIST_[2]", 1},      {"LIST_[3]", 0},     {"LIST_[-1]", 0},
+      {"LIST_[?]", 0},     {"GRID_[1,2]", 1},   {"GRID_[0,0]", 1},    {"GRID_[2,0]", 0},   {"GRID_[0,3]", 0},
+      {"GRID_[1, 2]", 1},  {"grid_[1,2]", 1},   {"grid_[ 1 , 3]", 0}, {"$TC_DP1[1,1]", 1}, {"$TC_DP1[1,2]", 1},
+      {"$TC_DP1[1,3]", 0}, {"$TC_DP1[7,1]", 0}, {"$TC_TP2[2]", 1},    {"$TC_TP2[3]", 0},   {"R[12]", 1},
+      {"$P_TOOLNO", 1},    {"$AA_IM[X]", 1},    {"_OVR[4]", 1},       {"$NOTHING[1]", 0},  {"RESTS[1]", 0},
+      {"R1X", 0}};
+  for (const auto& [name, expected] : cases) {
+    World world;
+    world.run(fmt::format("DEF REAL LIST_[3]\nDEF INT GRID_[2,3]\nR1=ISVAR(\"{}\")\nM30\n", name));
+    EXPECT_EQ(world.r(1), expected) << name;
+  }
+}
+
 TEST(SinumerikValues, RandomArithmeticAgreesWithTheCompiler) {
   std::mt19937_64 random(11);
   World world;

@@ -277,11 +277,12 @@ bool SinumerikHost::isVariableNamed(std::string_view text) {
     while (!cursor.atEnd() && cursor.peek() != ']') {
       double number = 0;
       cursor.skipBlanks();
+      const double sign = cursor.take('-') ? -1 : 1;
       if (cursor.number(number)) {
-        indices.emplace_back(number);
+        indices.emplace_back(sign * number);
       } else {
         const std::string word = upperCase(cursor.name());
-        if (word.empty()) break;
+        if (word.empty()) return false;
         indices.emplace_back(word);
       }
       cursor.take(',');
