@@ -253,6 +253,16 @@ bool enclosesNothing(const TrimmedDomain& domain) {
   return !domain.isEverywhere() && domain.area() <= kLeastShare * (domain.high() - domain.low()).prod();
 }
 
+/// mm^2, of a grid on a face.
+double areaOf(const CadFace& face, const FaceGrid& grid) {
+  double area = 0;
+  for (const auto& [a, b, c] : grid.triangles()) {
+    const Vector3 corner = face.pointAt(a);
+    area += (face.pointAt(b) - corner).cross(face.pointAt(c) - corner).norm() / 2;
+  }
+  return area;
+}
+
 /// True for faces whose border runs to and fro on one straight line, as CAD systems leave where a narrow face has come
 /// to nothing.
 bool liesOnALine(const TopoDS_Face& face) {
@@ -345,6 +355,9 @@ std::vector<GridFace> meshFaces(const TopoDS_Shape& shape, double deflection, co
     try {
       const CadFace exact = cadFace(TopoDS::Face(face.Located(TopLoc_Location())));
       const FaceGrid grid(exact, fine);
+      // A surface that is nothing but a line or a point, as some systems close wings with.
+      constexpr double kNothing = 1e-6;  // mm^2
+      if (!enclosesNothing(exact.domain) && areaOf(exact, grid) <= kNothing) continue;
       const Handle(Poly_Triangulation) mesh = triangulation(exact, grid);
       if (!mesh.IsNull() && !enclosesNothing(exact.domain)) {
         mesh->Deflection(deflection);

@@ -47,7 +47,8 @@ bool isMeshed(const TopoDS_Shape& shape, double deflection);
 /// more than about three metres by a share of their size. Faces that it leaves without triangles are tried twice more,
 /// four and sixteen times as fine. Those that it gives up, or still leaves, get a grid of cells over their parameters
 /// instead: on the surface, but reaching over the border by up to a cell. They are returned, but for those whose cells
-/// are smaller than `deflection`, and for faces that have come to nothing: a border to and fro on one straight line.
+/// are smaller than `deflection`, and for faces that have come to nothing: a border to and fro on one straight line, or
+/// a surface that is only a line or a point.
 std::vector<GridFace> meshFaces(const TopoDS_Shape& shape, double deflection, const FaceMeshOptions& options = {});
 
 }  // namespace probewright::simulation

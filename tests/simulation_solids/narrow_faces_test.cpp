@@ -6,6 +6,9 @@
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
+#include <BRep_Builder.hxx>
+#include <Geom_BezierSurface.hxx>
+#include <TColgp_Array2OfPnt.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
@@ -95,6 +98,23 @@ TEST(NarrowFaces, ThatHaveComeToNothingAreNotMissing) {
     border.Add(BRepBuilderAPI_MakeEdge(from, to).Edge());
   const TopoDS_Face face = BRepBuilderAPI_MakeFace(gp_Pln(gp_Pnt(0, 0, 3), gp::DZ()), border.Wire());
   EXPECT_THAT(meshFaces(face, 0.01), IsEmpty());
+}
+
+/// As wings are closed whose end is sharp: both sides of the surface are the same line, or all of it is a point.
+TEST(NarrowFaces, OfSurfacesThatAreALineAreNotMissing) {
+  for (const double length : {0.0, 30.0}) {
+    TColgp_Array2OfPnt poles(1, 2, 1, 4);
+    for (int j = 1; j <= 4; ++j) {
+      for (int i = 1; i <= 2; ++i)
+        poles(i, j) = gp_Pnt(length * (j - 1) / 3, 0.2 * length * (j - 1), 5);
+    }
+    const Handle(Geom_BezierSurface) surface = new Geom_BezierSurface(poles);
+    BRep_Builder builder;
+    TopoDS_Face face;
+    builder.MakeFace(face, surface, 1e-7);
+    builder.NaturalRestriction(face, Standard_True);
+    EXPECT_THAT(meshFaces(face, 0.01), IsEmpty()) << length << " mm long";
+  }
 }
 
 TEST(NarrowFaces, AreMetWhereTheyAre) {
