@@ -27,6 +27,7 @@
 #include <limits>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -285,6 +286,81 @@ bool liesOnALine(const TopoDS_Face& face) {
   return std::ranges::all_of(corners, [&](const gp_Pnt& corner) { return line.Distance(corner) <= kWidth; });
 }
 
+/// Gives the faces of a shape triangles, one way after the other.
+class FaceMesher {
+public:
+  FaceMesher(const TopoDS_Shape& shape, double deflection, const FaceMeshOptions& options)
+      : options_(options),
+        numbers_(numbered(shape)),
+        size_(sizeOf(shape)),
+        deflection_(deflection),
+        fine_(std::min(deflection, coarsest(size_))) {}
+
+  int numberOf(const TopoDS_Face& face) const { return numbers_.at(face.TShape().get()); }
+
+  /// All faces of the shape or of a copy, by OpenCASCADE's mesher, with chords `finer` times as fine as usual.
+  void mesh(const TopoDS_Shape& shape, double finer = 1) {
+    const Handle(BRepMesh_Context) context = new BRepMesh_Context();
+    context->SetFaceDiscret(new BRepMesh_FaceDiscret(new WatchedAlgos(numbers_, options_, givenUp_)));
+    BRepMesh_IncrementalMesh mesher;
+    mesher.SetShape(shape);
+    IMeshTools_Parameters& parameters = mesher.ChangeParameters();
+    parameters.Deflection = std::max(kAlongEdges * fine_, kAlongEdgesOfSize * size_) / finer;
+    parameters.DeflectionInterior = std::max(kInteriorDeflections * fine_, kInteriorOfSize * size_) / finer;
+    parameters.Angle = kAngle;
+    parameters.InParallel = options_.parallel;
+    mesher.Perform(context);
+  }
+
+  /// A face that has no triangles, or whose triangles end elsewhere than at its edges, with finer chords.
+  void meshFiner(const TopoDS_Face& face, int number) {
+    if (options_.left.contains(number) || (options_.leaveAll && !isFlat(face))) return;
+    for (const double finer : {4, 16}) {
+      if (isWhole(face) || givenUp_.contains(number)) return;
+      // A copy, as edges that have chords of a neighbour keep these.
+      const TopoDS_Face bare = TopoDS::Face(face.Located(TopLoc_Location()));
+      const TopoDS_Face copy = TopoDS::Face(BRepBuilderAPI_Copy(bare, Standard_False, Standard_False).Shape());
+      numbers_[copy.TShape().get()] = number;
+      mesh(copy, finer);
+      if (isWhole(copy) || !hasTriangles(face)) takeMesh(bare, copy);
+    }
+  }
+
+  bool isMeshed(const TopoDS_Face& face, int number) const {
+    return hasTriangles(face, options_.mostPoints) && !givenUp_.contains(number);
+  }
+
+  /// A grid for a face; returns it if it is worth telling. A face that has come to nothing gets none.
+  std::optional<GridFace> giveGrid(const TopoDS_Face& face, int number) const {
+    if (liesOnALine(face)) return std::nullopt;
+    GridFace given{number, kindOf(face), 0, 0};
+    try {
+      const CadFace exact = cadFace(TopoDS::Face(face.Located(TopLoc_Location())));
+      if (enclosesNothing(exact.domain)) return given;
+      const FaceGrid grid(exact, fine_);
+      const Handle(Poly_Triangulation) mesh = triangulation(exact, grid);
+      if (mesh.IsNull()) return given;
+      // A surface that is nothing but a line or a point, as some systems close wings with.
+      constexpr double kNothing = 1e-6;  // mm^2
+      if (areaOf(exact, grid) <= kNothing) return std::nullopt;
+      mesh->Deflection(deflection_);
+      BRep_Builder().UpdateFace(face, mesh);
+      given.deviation = grid.deviation();
+      given.cell = grid.largestCell();
+      if (given.cell <= deflection_) return std::nullopt;
+    } catch (const Standard_Failure&) {    // the face stays without triangles, which its entry tells
+    } catch (const std::runtime_error&) {  // the same
+    }
+    return given;
+  }
+
+private:
+  const FaceMeshOptions& options_;
+  FaceNumbers numbers_;
+  GivenUp givenUp_;
+  double size_, deflection_, fine_;
+};
+
 }  // namespace
 
 double sizeOf(const TopoDS_Shape& shape) {
@@ -309,66 +385,23 @@ bool isMeshed(const TopoDS_Shape& shape, double deflection) {
 }
 
 std::vector<GridFace> meshFaces(const TopoDS_Shape& shape, double deflection, const FaceMeshOptions& options) {
-  FaceNumbers numbers = numbered(shape);
-  GivenUp givenUp;
   BRepTools::Clean(shape);
   straightenSeams(shape);
-  const double size = sizeOf(shape);
-  const double fine = std::min(deflection, coarsest(size));
-  const auto tryMesh = [&](const TopoDS_Shape& some, double finer) {
-    const Handle(BRepMesh_Context) context = new BRepMesh_Context();
-    context->SetFaceDiscret(new BRepMesh_FaceDiscret(new WatchedAlgos(numbers, options, givenUp)));
-    BRepMesh_IncrementalMesh mesher;
-    mesher.SetShape(some);
-    IMeshTools_Parameters& parameters = mesher.ChangeParameters();
-    parameters.Deflection = std::max(kAlongEdges * fine, kAlongEdgesOfSize * size) / finer;
-    parameters.DeflectionInterior = std::max(kInteriorDeflections * fine, kInteriorOfSize * size) / finer;
-    parameters.Angle = kAngle;
-    parameters.InParallel = options.parallel;
-    mesher.Perform(context);
-  };
-  tryMesh(shape, 1);
-
+  FaceMesher mesher(shape, deflection, options);
+  mesher.mesh(shape);
   std::vector<GridFace> grids;
   std::set<int> seen;
   for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next()) {
     const TopoDS_Face face = TopoDS::Face(faces.Current().Oriented(TopAbs_FORWARD));
-    const int number = numbers.at(face.TShape().get());
+    const int number = mesher.numberOf(face);
     if (!seen.insert(number).second) continue;
-    const bool isTried = !options.left.contains(number) && !(options.leaveAll && !isFlat(face));
-    for (const double finer : {4, 16}) {
-      if (!isTried || isWhole(face) || givenUp.contains(number)) break;
-      // A copy, as edges that have chords of a neighbour keep these.
-      const TopoDS_Face bare = TopoDS::Face(face.Located(TopLoc_Location()));
-      const TopoDS_Face copy = TopoDS::Face(BRepBuilderAPI_Copy(bare, Standard_False, Standard_False).Shape());
-      numbers[copy.TShape().get()] = number;
-      tryMesh(copy, finer);
-      if (isWhole(copy) || !hasTriangles(face)) takeMesh(bare, copy);
-    }
-    if (hasTriangles(face, options.mostPoints) && !givenUp.contains(number)) {
+    mesher.meshFiner(face, number);
+    if (mesher.isMeshed(face, number)) {
       TopLoc_Location location;
       BRep_Tool::Triangulation(face, location)->Deflection(deflection);
-      continue;
+    } else if (const auto grid = mesher.giveGrid(face, number)) {
+      grids.push_back(*grid);
     }
-    if (liesOnALine(face)) continue;
-    GridFace found{number, kindOf(face), 0, 0};
-    try {
-      const CadFace exact = cadFace(TopoDS::Face(face.Located(TopLoc_Location())));
-      const FaceGrid grid(exact, fine);
-      // A surface that is nothing but a line or a point, as some systems close wings with.
-      constexpr double kNothing = 1e-6;  // mm^2
-      if (!enclosesNothing(exact.domain) && areaOf(exact, grid) <= kNothing) continue;
-      const Handle(Poly_Triangulation) mesh = triangulation(exact, grid);
-      if (!mesh.IsNull() && !enclosesNothing(exact.domain)) {
-        mesh->Deflection(deflection);
-        BRep_Builder().UpdateFace(face, mesh);
-        found.deviation = grid.deviation();
-        found.cell = grid.largestCell();
-      }
-    } catch (const Standard_Failure&) {    // the face stays without triangles, which its entry tells
-    } catch (const std::runtime_error&) {  // the same
-    }
-    if (found.cell == 0 || found.cell > deflection) grids.push_back(std::move(found));
   }
   return grids;
 }
