@@ -104,6 +104,52 @@ TEST(Cycle982Refuses, WhatItCannotMeasure) {
   }
 }
 
+/// An alarm that several things can raise says which of them it was.
+TEST(Cycle982Refuses, WithTheReason) {
+  struct Reason {
+    std::string call;
+    int tool;
+    std::vector<std::pair<const char*, double>> data;
+    std::string before, words;
+  };
+  const std::vector<Reason> reasons = {
+      {"CYCLE982(2,0,1,,,,5,1)", 6, {{"$SC_TOOL_LENGTH_TYPE", 0}}, "", "mills are measured with SD 42950"},
+      {"CYCLE982(1,0,1,1,,,5,1)", 6, {{"$SC_TOOL_LENGTH_TYPE", 0}}, "", "mills are measured with SD 42950"},
+      {"CYCLE982(1,0,1,1,,,5,1)", 7, {{"$SC_TOOL_LENGTH_TYPE", 0}}, "", "= 0 a drill is measured in G17 or G19"},
+      {"CYCLE982(2,0,1,,,,5,1)",
+       5,
+       {{"$TC_DP1", 400}},
+       "",
+       "$TC_DP1 = 400: turning tools (5xy), mills (1xy) and drills"},
+      {"CYCLE982(2,0,1,,,,5,1)", 5, {{"$TC_DP1", 99}}, "", "$TC_DP1 = 99: turning tools"},
+      {"CYCLE982(2,0,1,,,,5,1)", 5, {{"$TC_DP1", 300}}, "", "$TC_DP1 = 300: turning tools"},
+      {"CYCLE982(2,0,1,,,,5,1)", 5, {{"$TC_DP2", 9}}, "", "$TC_DP2 = 9, turning tools are measured with 1 to 8"},
+      {"CYCLE982(2,0,1,,,,5,1)", 5, {{"$TC_DP2", 0}}, "", "$TC_DP2 = 0, turning tools are measured with 1 to 8"},
+      {"CYCLE982(0,,1,2,,,5,1)", 8, {}, "", "$TC_DP2 = 8, the probe is calibrated with 1 to 4"},
+      {"CYCLE982(0,,1,1,,,5,1)", 6, {}, "", "the probe is calibrated with a tool of type 580 or 5xy"},
+      {"CYCLE982(R1,0,1,1,,,5,1)", 5, {}, "R1=3\n", "S_MVAR (measuring variant) cannot be 3"},
+      {"CYCLE982(1,0,1,1,1,,5,1)", 5, {}, "", "position 3 does not touch in the plus direction of axis 1"},
+      {"CYCLE982(1,0,1,2,1,,5,1)", 5, {}, "", "position 3 does not touch in the plus direction of axis 2"},
+      {"CYCLE982(1,0,1,1,1,,5,1)", 6, {}, "", "the tip of the tool does not point that way"},
+      {"CYCLE982(1001,0,1,1,,,5,1)", 6, {}, "", "the radius is measured along the other axis of the plane"},
+  };
+  for (const Reason& reason : reasons) {
+    SCOPED_TRACE(fmt::format("tool {} {}", reason.tool, reason.call));
+    LatheBench bench = benchWithTools();
+    for (const auto& [name, value] : reason.data) {
+      if (std::string_view(name).starts_with("$TC_"))
+        bench.set(name, {reason.tool, 1}, value);
+      else
+        bench.set(name, {}, value);
+    }
+    const Vector2 start = reason.tool == 8 ? Vector2(404, 190) : Vector2(445, 190);
+    const execution::RunResult result = bench.tryRun(measuring(reason.tool, start, reason.before + reason.call));
+    ASSERT_FALSE(result.diagnostics.empty());
+    EXPECT_NE(result.diagnostics.front().message.find(reason.words), std::string::npos)
+        << format(result.diagnostics.front());
+  }
+}
+
 /// What fits to no tool is known before the run; what does nothing is named.
 TEST(Cycle982Refuses, CallsThatCannotBeMeantBeforeTheRun) {
   const auto said = [](const std::string& call, Severity severity) {

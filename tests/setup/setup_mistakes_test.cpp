@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <tuple>
+
 #include "setup/setup.hpp"
 #include "support/test_names.hpp"
 
@@ -142,6 +145,23 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"[part]\nfile = \"a.stl\"\npose = { x = 1e300 }", "\"x\" in [part.pose] must be at least -100000"},
         Mistake{"[[preset]]\nrow = 1\norigin = [1e300, 0, 0]", "each at least -100000 and at most 100000"},
         Mistake{"[parameters]\nMP1 = [1]", "\"MP1\" in [parameters] must be a number, a text, true or false"}));
+
+TEST(SetupMistakes, PatternsMakeUpToAThousandCopies) {
+  for (const auto& [first, second, tooMany] :
+       std::vector<std::tuple<int, int, bool>>{{1000, 1, false}, {40, 25, false}, {77, 13, true}, {2, 501, true}}) {
+    const std::string text = fmt::format(
+        "[[part.feature]]\nshape = \"sphere\"\ndiameter = 1\n[[part.feature.pattern]]\nkind = \"linear\"\n"
+        "count = {}\nspacing = [9, 0, 0]\n[[part.feature.pattern]]\nkind = \"linear\"\ncount = {}\n"
+        "spacing = [0, 9, 0]\n",
+        first, second);
+    Diagnostics diagnostics;
+    static_cast<void>(parseSetup(text, "s.toml", diagnostics));
+    const bool found = std::ranges::any_of(diagnostics, [](const Diagnostic& each) {
+      return each.message.find("more than 1000 copies") != std::string::npos;
+    });
+    EXPECT_EQ(found, tooMany) << first << " " << second;
+  }
+}
 
 }  // namespace
 }  // namespace probewright::setup

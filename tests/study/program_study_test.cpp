@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -380,6 +381,46 @@ TEST(ProgramStudy, RefusesNumbersThatNoSetupHas) {
   EXPECT_TRUE(
       mistakesOf("part.feature[2].diameter", "distribution = \"uniform\"\nminimum = -5\nmaximum = 4\n").empty());
   EXPECT_TRUE(mistakesOf("part.feature[2].diameter", "distribution = \"discrete\"\nvalues = [-1, 30]\n").empty());
+}
+
+/// Parts lie elsewhere along X, appraisers clamp them elsewhere along Y: each is told in the coordinate where it acts.
+/// By four touches a diameter scatters as much as a touch, a coordinate of the centre by 1/sqrt(2) of it.
+TEST(ProgramStudy, TellsPartsAppraisersAndRepeatsApart) {
+  const auto study = [](const std::string& alongX, const std::string& alongY) {
+    const std::string source = R"([[source]]
+quantity = "part.pose.{}"
+distribution = "uniform"
+half_width = 0.1
+drawn = "{}"
+)";
+    return studyOfProgram(plateSetup(), program(bore(3, 4)),
+                          "trials = 2\nsensitivity = \"none\"\n[gauge]\nparts = 6\nappraisers = 4\nrepeats = 2\n" +
+                              fmt::format(fmt::runtime(source + source), "x", alongX, "y", alongY));
+  };
+  const double ofTouches = 0.002 / std::sqrt(2), ofPlaces = 0.1 / std::sqrt(3);
+  const StudyResult result = study("part", "appraiser");
+  const auto gaugeOf = [](const StudyResult& found, const char* name) {
+    const Answer& each = answer(found, name);
+    EXPECT_TRUE(each.gauge) << name;
+    return each.gauge.value_or(GaugeRR());
+  };
+  const GaugeRR x = gaugeOf(result, "421@4 Q151"), y = gaugeOf(result, "421@4 Q152"),
+                diameter = gaugeOf(result, "421@4 Q153");
+  EXPECT_EQ(x.parts, 6U);
+  EXPECT_EQ(x.appraisers, 4U);
+  EXPECT_EQ(x.repeats, 2U);
+  EXPECT_NEAR(x.repeatability, ofTouches, 0.4 * ofTouches);
+  EXPECT_NEAR(x.partVariation, ofPlaces, 0.7 * ofPlaces);
+  EXPECT_LT(x.reproducibility, 2 * ofTouches);
+  EXPECT_NEAR(y.repeatability, ofTouches, 0.4 * ofTouches);
+  EXPECT_NEAR(y.reproducibility, ofPlaces, 0.8 * ofPlaces);
+  EXPECT_LT(y.partVariation, 2 * ofTouches);
+  EXPECT_NEAR(diameter.repeatability, 0.002, 0.4 * 0.002);
+  EXPECT_LT(diameter.partVariation, 0.003);
+  for (const Answer& each : result.answers)
+    EXPECT_EQ(each.gauge.has_value(), each.of.main) << each.of.key;
+  // What is drawn in each trial is the gauge's own.
+  EXPECT_NEAR(gaugeOf(study("trial", "part"), "421@4 Q151").repeatability, ofPlaces, 0.4 * ofPlaces);
 }
 
 }  // namespace

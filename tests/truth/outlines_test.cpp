@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 
 #include "truth/told.hpp"
@@ -92,6 +93,36 @@ TEST(Outlines, OfAHoleAreThoseOfTheOneOfThatSize) {
   ASSERT_FALSE(told.finished());
   EXPECT_THAT(textsOf(told), HasSubstr("the hole of 30.010 mm has its centre at X+50.000 Y+40.000 Z-5.000 of the"));
   EXPECT_THAT(textsOf(told), HasSubstr("74.404 mm from Q321/Q322"));
+}
+
+/// Of holes and studs of one size the nearest is meant, of a ring the side that has the size.
+TEST(Outlines, OfRoundFeaturesAreThoseThatAreMeant) {
+  const auto told = [](const std::string& features, int cycle, double x, double y, double diameter) {
+    World world;
+    world.origin = {0, 0, -480};
+    world.part = boxWith(features, "{ z = -480 }");
+    return textsOf(run(
+        world,
+        probeAbove + fmt::format("TCH PROBE {} PRESET ~\nQ321={:+} ~\nQ322={:+} ~\nQ262={:+} ~\nQ325=+0 ~\nQ247=+90 ~\n"
+                                 "Q261=-5 ~\nQ320=+2 ~\nQ260=+20 ~\nQ301=+0 ~\nQ305=+1 ~\nQ331=+0 ~\nQ332=+0 ~\n"
+                                 "Q303=+1 ~\nQ381=+0 ~\nQ382=+0 ~\nQ383=+0 ~\nQ384=+0 ~\nQ333=+0\n",
+                                 cycle, x, y, diameter)));
+  };
+  const std::string hole = "[[part.feature]]\nshape = \"hole\"\ndiameter = 20\ncentre = [{}, {}, 0]\n";
+  const std::string holes = fmt::format(fmt::runtime(hole + hole + hole), -50, 0, 40, 30, 45, -40);
+  for (const auto& [x, y, dx, dy] :
+       std::vector<std::array<double, 4>>{{-50, 0, 15, 0}, {40, 30, 0, -12}, {45, -40, -9, 8}}) {
+    const std::string said = told(holes, 412, x + dx, y + dy, 20);
+    EXPECT_THAT(said,
+                HasSubstr(fmt::format("the hole of 20.000 mm has its centre at X{:+.3f} Y{:+.3f} Z-5.000", x, y)));
+    EXPECT_THAT(said, HasSubstr(fmt::format("{:.3f} mm from Q321/Q322", std::hypot(dx, dy))));
+  }
+  const std::string ring =
+      "[[part.feature]]\nshape = \"pocket\"\nsize = [150, 130]\ndepth = 30\ncorner_radius = 5\n"
+      "[[part.feature]]\nshape = \"cylinder\"\ncentre = [0, 0, -30]\ndiameter = 60\nheight = 30\n"
+      "[[part.feature]]\nshape = \"hole\"\ndiameter = 44\ndepth = 30\n";
+  EXPECT_THAT(told(ring, 412, 21, 0, 44), HasSubstr("the hole of 44.000 mm has its centre at X+0.000 Y+0.000"));
+  EXPECT_THAT(told(ring, 413, 27, 0, 60), HasSubstr("the stud of 60.000 mm has its centre at X+0.000 Y+0.000"));
 }
 
 /// A SINUMERIK tries five times; what is said of the alarm is said once.

@@ -224,7 +224,6 @@ constexpr CycleDefinition definition = {
 void run(Context& context, const Arguments&) {
   requireTurningProbe(context);
   const Variant variant = variantOf(context);
-  if (!(context.real("S_FA") > 0)) context.alarm(61308);
   if (!(context.control().tool.radius > 0)) context.alarm(61351, "radius $TC_DP6 of the probe");
   ProbeCalibration calibration(context);
   calibration.list({0, 1}, ProbeCalibration::Listed::WithDeviations);

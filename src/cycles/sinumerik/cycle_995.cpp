@@ -212,7 +212,6 @@ void run(Context& context, const Arguments&) {
   probing::SinumerikProber& prober = context.prober();
   const PlanePlace start = prober.position();
   const double path = context.real("S_FA");
-  if (!(path > 0)) context.alarm(61308);
   BallPlan plan = {
       .diameter = context.real("S_SETV"),
       .points = points,
