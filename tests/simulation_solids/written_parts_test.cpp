@@ -7,6 +7,7 @@
 #include "meant.hpp"
 #include "oracle.hpp"
 #include "simulation/cad_solid.hpp"
+#include "simulation/cad_transfer.hpp"
 #include "written_step.hpp"
 
 /// Parts as files write them that OpenCASCADE did not write, met where the closed form of what they mean says.
@@ -321,6 +322,32 @@ TEST(DamagedParts, WhoseFacesDoNotFitTheirEdgesAreNamed) {
   EXPECT_THAT(saidOf(changed("=CYLINDRICAL_SURFACE", ",22.)", ",21.)")), HasSubstr(misfit + "1.000 mm"));
   EXPECT_THAT(saidOf(changed("=CYLINDRICAL_SURFACE", ",22.)", ",22.04)")), HasSubstr(misfit + "0.040 mm"));
   EXPECT_THAT(saidOf(changed("=TOROIDAL_SURFACE", ",20.,2.)", ",20.,2.5)")), HasSubstr(misfit + "0.500 mm"));
+}
+
+/// Where an import ends with a crash, the face that was named last is what it is about.
+TEST(DamagedParts, AreSearchedFaceByFace) {
+  StepFile file;
+  const std::vector<int> faces = revolvedFaces(file, cap(), Pose::Identity(), {});
+  const int damaged = file.add("ADVANCED_FACE('',$,$,.T.)");
+  const std::vector<int> others = revolvedFaces(file, cap(), Pose(translation({0, 0, 40})), {});
+  TransferOrder order;
+  order.file = "part.step";
+  order.bytes = file.withItems({file.solid(faces), file.solid(others)});
+  std::vector<std::string> expected, said;
+  for (const auto& some : {faces, others})
+    for (const int face : some)
+      expected.push_back(fmt::format("at #{}", face));
+  inChild(
+      [&](const ChildVoice& voice) {
+        searchFaces(order, voice);
+        return std::string();
+      },
+      {},
+      [&](std::string_view line) {
+        if (line.starts_with("at ")) said.emplace_back(line);
+      },
+      [](double) { return false; });
+  EXPECT_EQ(said, expected) << damaged;
 }
 
 /// A damaged entity that no face needs may be why a body is not as it should be; a skin is just a skin.
