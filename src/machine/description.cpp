@@ -1,5 +1,7 @@
 #include "machine/description.hpp"
 
+#include <cmath>
+
 namespace probewright::machine {
 
 namespace {
@@ -22,6 +24,10 @@ Pose chainPose(const std::vector<Axis>& axes, const std::vector<ChainElement>& c
 }
 
 }  // namespace
+
+double shownPosition(const Axis& axis, double position) {
+  return axis.modulo ? position - 360 * std::floor((position + 1e-9) / 360) : position;
+}
 
 std::optional<std::size_t> MachineDescription::axisIndex(std::string_view axisName) const {
   for (std::size_t i = 0; i < axes.size(); ++i) {

@@ -36,6 +36,10 @@ struct Axis {
   bool modulo = false;  ///< a rotary axis without end stops; shown in [0, 360)
 };
 
+/// What a control shows of a position of this axis, mm or degrees: of one without end stops the angle within the turn,
+/// where less than 1e-9 degrees below 0 count as 0.
+double shownPosition(const Axis& axis, double position);
+
 /// One element of a kinematic chain, given at the position where all axes stand at 0, in base coordinates: a fixed
 /// offset has no axis; a moving element shifts along `direction` or turns about the line `point` + t*`direction`.
 struct ChainElement {

@@ -405,6 +405,16 @@ TEST(SinumerikMotion, RotaryAxesTurnAsTold) {
   EXPECT_EQ(world.machine.position()[c], 35);
   EXPECT_NEAR(world.r(1), 10, 1e-12);
   EXPECT_NEAR(world.r(2), 35, 1e-12);
+  // Whole turns are not shown: 715 degrees are 355, and 330 from the zero offset; -10 degrees are 350 and 325.
+  world.run("G91 C680\nG90\nR1=$AA_IW[C] R2=$AA_IM[C] R3=$P_EP[C]\n");
+  EXPECT_EQ(world.machine.position()[c], 715);
+  EXPECT_NEAR(world.r(1), 330, 1e-9);
+  EXPECT_NEAR(world.r(2), 355, 1e-9);
+  EXPECT_NEAR(world.r(3), 330, 1e-9);
+  world.run("G91 C-725\nG90\nR1=$AA_IW[C] R2=$AA_IM[C]\n");
+  EXPECT_EQ(world.machine.position()[c], -10);
+  EXPECT_NEAR(world.r(1), 325, 1e-9);
+  EXPECT_NEAR(world.r(2), 350, 1e-9);
 }
 
 /// From X10 Y5: the angle counts from the 1st axis of the plane, and so does AP; the pole of G110 counts from where the

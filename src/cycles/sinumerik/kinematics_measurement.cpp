@@ -52,8 +52,10 @@ double angleOf(const Context& context, const ToolCarrier& carrier, int axis) {
   const auto found = std::ranges::find_if(axes, [&](const machine::Axis& each) {
     return control::sinumerik::upperCase(each.name) == carrier.axisName[which];
   });
-  const double position = found != axes.end() ? channel.axes()[static_cast<std::size_t>(found - axes.begin())]
-                                              : context.real(axis == 0 ? "S_SETV0" : "S_SETV1");
+  const double position =
+      found != axes.end()
+          ? machine::shownPosition(*found, channel.axes()[static_cast<std::size_t>(found - axes.begin())])
+          : context.real(axis == 0 ? "S_SETV0" : "S_SETV1");
   return position - carrier.basicSetting[which];
 }
 

@@ -30,7 +30,7 @@ double turnsTowards(double current, double angle) { return angle + 360 * std::ro
 /// one it shows and down to a smaller one, less than a turn either way. The others go wherever they are told.
 double PathMotion::rotaryTarget(std::size_t axis, WordMode mode, double value) const {
   const double current = programAngle(axis);
-  const bool modulo = control_.channel.description().axes[axis].modulo;
+  const machine::Axis& description = control_.channel.description().axes[axis];
   switch (mode) {
     case WordMode::Incremental:
       return current + value;
@@ -51,8 +51,9 @@ double PathMotion::rotaryTarget(std::size_t axis, WordMode mode, double value) c
     case WordMode::Absolute:
       break;
   }
-  if (!modulo) return value;
-  const double target = 360 * std::floor(current / 360 + 1e-12) + value, turns = (target - current) / 360;
+  if (!description.modulo) return value;
+  const double target = current - machine::shownPosition(description, current) + value;
+  const double turns = (target - current) / 360;
   const bool isThere = std::abs(std::remainder(target - current, 360.0)) < 1e-9;
   return target - 360 * (isThere ? std::round(turns) : std::trunc(turns));
 }

@@ -117,18 +117,20 @@ std::optional<Value> SystemVariables::readPosition(std::string_view name, std::s
   if (!linear && !machineAxis) throw Alarm("17020", fmt::format("{}: there is no axis {}", name, axis));
   const Measurement& found = motion_.measurement();
   const AxisPositions axes = measured ? found.latched : control_.channel.axes();
+  const std::vector<machine::Axis>& ofMachine = control_.channel.description().axes;
   double value = 0;
   if (system == System::Machine) {
     if (!machineAxis) throw Alarm("17020", fmt::format("{}: the machine has no axis {}", name, axis));
-    value = axes[*machineAxis];
+    value = machine::shownPosition(ofMachine[*machineAxis], axes[*machineAxis]);
   } else if (linear) {
     const ProgramPlace tip = measured ? found.tip : control_.channel.position();
     value = tip[static_cast<Eigen::Index>(*linear)];
     if (*linear == 0 && control_.diameter) value *= 2;
   } else {
-    return axes[*machineAxis] - control_.channel.rotaryOffset[*machineAxis];
+    return machine::shownPosition(ofMachine[*machineAxis],
+                                  axes[*machineAxis] - control_.channel.rotaryOffset[*machineAxis]);
   }
-  const bool length = control_.channel.description().axes[machineAxis.value_or(0)].kind == machine::AxisKind::Linear;
+  const bool length = ofMachine[machineAxis.value_or(0)].kind == machine::AxisKind::Linear;
   return length ? value / unit() : value;
 }
 
