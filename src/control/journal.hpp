@@ -25,6 +25,7 @@ struct TouchRecord {
   Vector3 direction = Vector3::Zero();   ///< probing direction, unit, workpiece coordinates
   Vector3 ballCentre = Vector3::Zero();  ///< as the control believes it at the signal, workpiece coordinates
   Vector3 surface = Vector3::Zero();     ///< compensated point on the surface, workpiece coordinates
+  Vector3 spindle = Vector3::Zero();     ///< tool reference point at the signal (HEIDENHAIN), workpiece coordinates
   machine::AxisPositions latched;        ///< axis positions at the signal
   double seconds = 0;                    ///< machine clock
   std::string outcome;                   ///< "touched", "no contact", "deflected", "collision"

@@ -24,6 +24,10 @@ ProgramWay alongTool(const control::Channel& channel, double length) {
   return inProgramUnits(channel, length, axis) * axis;
 }
 
+ProgramPlace spindlePlace(const control::Channel& channel, const machine::AxisPositions& axes) {
+  return channel.programFromAxes(axes) + alongTool(channel, channel.toolVector.norm());
+}
+
 double HeidenhainProber::inProgram(double length, const PlaneWay& direction) const {
   return inProgramUnits(channel_, length, plane_.xyzFromPlane(direction));
 }
@@ -179,6 +183,7 @@ EvaluatedTouch HeidenhainProber::stroke(const PlaneWay& direction, double distan
     record.ballCentre = plane_.xyzFromPlane(centre).vector();
     record.surface = plane_.xyzFromPlane(partAt(centre, direction * radius)).vector();
     record.latched = latched.latched;
+    record.spindle = spindlePlace(channel_, latched.latched).vector();
     finish("touched");
     channel_.retractTo(startTip, Feed::rapidTraverse());
   }

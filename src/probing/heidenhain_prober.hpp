@@ -49,6 +49,9 @@ double inProgramUnits(const control::Channel& channel, double length, const Prog
 /// What leads `length` mm along the tool towards the spindle.
 ProgramWay alongTool(const control::Channel& channel, double length);
 
+/// Where the tool reference point of the spindle stands while the axes read this, without ball radius and length.
+ProgramPlace spindlePlace(const control::Channel& channel, const machine::AxisPositions& axes);
+
 /// Moves the ball in coordinates (main, minor, tool axis) of the active program coordinate system. What program and
 /// cycle give counts in these coordinates; what tables and machine parameters give (ball radius, SET_UP, DIST) is in mm
 /// whatever scaling is active.

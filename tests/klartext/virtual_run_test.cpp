@@ -78,6 +78,28 @@ TEST(VirtualRun, OldFormCyclesMeasureOnePoint) {
   EXPECT_TRUE((world.control->channel.position() - ProgramPlace(0, 9, -10)).norm() < 1e-9);
 }
 
+/// What a touch has found stays as the cycle found it, whatever the program does to its coordinates and tool
+/// afterwards.
+TEST(VirtualRun, TheLastTouchOutlivesItsCoordinates) {
+  RingWorld world;
+  const RunResult result = world.run(
+      "1 TOOL CALL 1 Z\n2 CYCL DEF 247 P ~\n  Q339=1\n3 L X+0 Y+0 Z+50 R0 FMAX\n4 L Z-5 R0 FMAX\n"
+      "5 TCH PROBE 0.0 BEZUGSEBENE Q5 X-\n6 TCH PROBE 0.1 X-9 IY+0 Z-10\n"
+      "7 CYCL DEF 7.0 DATUM SHIFT\n8 CYCL DEF 7.1 X+3\n9 CYCL DEF 7.2 Z-7\n"
+      "10 CYCL DEF 10.0 ROTATION\n11 CYCL DEF 10.1 ROT+40\n12 TOOL CALL 1 Z DL+1\n"
+      "13 FN 18: SYSREAD Q20 = ID360 NR1 IDX1\n14 FN 18: SYSREAD Q21 = ID360 NR3 IDX1\n"
+      "15 FN 18: SYSREAD Q22 = ID360 NR3 IDX2\n16 FN 18: SYSREAD Q23 = ID360 NR3 IDX3\n"
+      "17 FN 18: SYSREAD Q24 = ID360 NR4 IDX1\n");
+  for (const Diagnostic& diagnostic : result.diagnostics)
+    ADD_FAILURE() << format(diagnostic);
+  const double x = 0.25 - std::sqrt(18 * 18 - 0.5 * 0.5);
+  EXPECT_NEAR(world.control->q.q(20), x - 2, 1e-6);
+  EXPECT_NEAR(world.control->q.q(21), x, 1e-6);
+  EXPECT_NEAR(world.control->q.q(22), 0, 1e-6);
+  EXPECT_NEAR(world.control->q.q(23), -10 + 100, 1e-6);
+  EXPECT_NEAR(world.control->q.q(24), x, 1e-6);
+}
+
 TEST(VirtualRun, ACollisionNamesItsBlock) {
   RingWorld world;
   const RunResult result = world.run(

@@ -66,6 +66,7 @@ void measureFreely(Context& context, const FreeMeasurement& measurement) {
       record.ballCentre = ball.vector();
       record.surface = partAt(ball, direction * probing::inProgramUnits(channel, probe.ballRadius, direction)).vector();
       record.latched = touch.latched;
+      record.spindle = probing::spindlePlace(channel, touch.latched).vector();
       note("touched");
       status = touched;
       break;

@@ -36,8 +36,7 @@ void moveToProgrammedPosition(Context& context) {
 
 void storeTouchPosition(Context& context, const EvaluatedTouch& touch) {
   control::Channel& channel = context.channel();
-  const ProgramPlace reference =
-      channel.programFromAxes(touch.latched) + probing::alongTool(channel, channel.toolVector.norm());
+  const ProgramPlace reference = probing::spindlePlace(channel, touch.latched);
   for (int i = 0; i < 3; ++i)
     context.result(115 + i, reference[i]);
   int number = 118;

@@ -8,7 +8,6 @@
 #include "control/heidenhain/datum_table.hpp"
 #include "control/heidenhain/tool_table.hpp"
 #include "execution/klartext/system_data.hpp"
-#include "probing/heidenhain_prober.hpp"
 
 /// FN 18. Tools and touch probes are in system_tool_data.cpp.
 namespace probewright::execution::klartext {
@@ -187,8 +186,7 @@ std::optional<double> SystemData::touchData(int number, int index) const {
     case 1:
       return touch->surface[index - 1];
     case 3:
-      return (channel.programFromAxes(touch->latched) +
-              probing::alongTool(channel, channel.toolVector.norm()))[index - 1];
+      return touch->spindle[index - 1];
     case 4:
       return touch->ballCentre[index - 1];
     default:
