@@ -137,6 +137,22 @@ TEST(SystemData, CalibrationOfTheTouchProbe) {
   EXPECT_DOUBLE_EQ(world.q(6), 15);
 }
 
+/// The newer control keeps centre offset and angle in the touch probe table; FN 17 writes them where FN 18 reads them.
+TEST(SystemData, ProgramsWriteTheCentreOffset) {
+  World world;
+  expectFinished(
+      world.run("TOOL CALL 1 Z\nFN 17: SYSWRITE ID50 NR24 IDX1 = +0.03\nFN 17: SYSWRITE ID950 NR25 = -0.02\n"
+                "FN 17: SYSWRITE ID50 NR26 IDX1 = +15\nFN 18: SYSREAD Q1 = ID50 NR24 IDX1\n"
+                "FN 18: SYSREAD Q2 = ID350 NR53 IDX2\nFN 18: SYSREAD Q3 = ID350 NR54\n"));
+  EXPECT_DOUBLE_EQ(world.q(1), 0.03);
+  EXPECT_DOUBLE_EQ(world.q(2), -0.02);
+  EXPECT_DOUBLE_EQ(world.q(3), 15);
+  const auto& probes = world.control->tables.probes;
+  EXPECT_DOUBLE_EQ(probes.number("1", "CAL_OF1").value_or(0), 0.03);
+  // A tool that is not a touch probe has no row there.
+  EXPECT_THAT(messageOf(world.run("FN 17: SYSWRITE ID50 NR24 IDX2 = +0.03\n")), HasSubstr("ID50 NR24"));
+}
+
 TEST(SystemData, ModelOfTheTouchProbe) {
   const std::pair<const char*, int> models[] = {{"TS120", 0}, {"TS220", 1}, {"TS440", 2}, {"TS630", 3}, {"TS632", 4},
                                                 {"TS640", 5}, {"TS444", 6}, {"TS740", 7}, {"TS999", 0}};

@@ -57,6 +57,12 @@ std::optional<NumberColumn> columnOf(int number) {
   return column == toolColumns.end() ? std::nullopt : std::optional(column->column);
 }
 
+/// The column of the touch probe table that holds NR 24, 25 or 26 on the newer control; nothing for any other.
+std::optional<NumberColumn> calibrationColumnOf(int number) {
+  constexpr std::array<NumberColumn, 3> columns = {"CAL_OF1", "CAL_OF2", "CAL_ANG"};
+  return number >= 24 && number <= 26 ? std::optional(columns[static_cast<std::size_t>(number - 24)]) : std::nullopt;
+}
+
 }  // namespace
 
 /// The row of TOOL.T that an index names: 5 or, with its step, 5.1.
@@ -87,11 +93,9 @@ std::optional<double> SystemData::toolData(int number, const std::string& row) c
     case 25:
     case 26: {
       if (!control_.isTNC640()) break;
-      // The newer control keeps them in the touch probe table.
-      constexpr std::array<NumberColumn, 3> columns = {"CAL_OF1", "CAL_OF2", "CAL_ANG"};
       const auto& probes = control_.tables.probes;
       const std::string probe = text("TP_NO");
-      return probes.hasRow(probe) ? probes.numberOr(probe, columns[static_cast<std::size_t>(number - 24)], 0) : 0;
+      return probes.hasRow(probe) ? probes.numberOr(probe, *calibrationColumnOf(number), 0) : 0;
     }
     case 34:
       return text("LIFTOFF") == "Y" ? 1 : 0;
@@ -249,7 +253,11 @@ void SystemData::write(const Command& command, Evaluation& evaluation) {
       const auto column = columnOf(number);
       const bool isType = number == 36;
       if ((!column && !isType) || !control_.tables.tools.hasRow(row)) refuse();
-      if (!isType) {
+      if (const auto calibration = calibrationColumnOf(number); calibration && control_.isTNC640()) {
+        const std::string probe = control_.tables.tools.text(row, "TP_NO");
+        if (!control_.tables.probes.hasRow(probe)) refuse();
+        control_.writeNumber(control_.tables.probes, probe, *calibration, value);
+      } else if (!isType) {
         control_.writeNumber(control_.tables.tools, row, *column, value);
       } else if (control_.tables.tools.hasColumn("TYP")) {
         control_.writeText(control_.tables.tools, row, "TYP", std::string(toolTypeOf(value)));
