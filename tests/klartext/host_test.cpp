@@ -393,6 +393,21 @@ TEST(Host, FreeTablesAreReadAndWritten) {
   EXPECT_THAT(world.run("FN 26: TABOPEN NONE.TAB\n").diagnostics.front().message, HasSubstr("NONE.TAB"));
 }
 
+/// Columns of numbers without decimal places take whole numbers as they are, in as few characters as they have.
+TEST(Host, FreeTablesKeepWholeNumbers) {
+  World world;
+  world.files["T.TAB"] = "BEGIN T.TAB MM\nNR   D     N     E        DOC\n0    +3    4              first\n[END]\n";
+  expectFinished(
+      world.run("FN 26: TABOPEN T.TAB\nQ20 = 7\nQ21 = -12\nQ22 = 5\nFN 27: TABWRITE 0/\"D,N,E\" = Q20\n"
+                "Q20 = 18 / 3\nFN 27: TABWRITE 1/\"D\" = Q20\nFN 28: TABREAD Q30 = 0/\"D,N,E\"\n"));
+  const std::string& file = world.control->panel.files().at("T.TAB");
+  EXPECT_THAT(file, HasSubstr("0    +7    -12   +5       first"));
+  EXPECT_THAT(file, HasSubstr("1    +6  "));
+  EXPECT_EQ(world.q(30), 7);
+  EXPECT_EQ(world.q(31), -12);
+  EXPECT_EQ(world.q(32), 5);
+}
+
 TEST(Host, CirclesThroughPoints) {
   World world;
   expectFinished(world.run("Q30=13\nQ31=4\nQ32=3\nQ33=14\nQ34=-7\nQ35=4\nFN 23: Q20 = CDATA Q30\n"));

@@ -17,6 +17,7 @@ namespace probewright::execution::klartext {
 
 using control::Alarm;
 using control::heidenhain::NumberColumn;
+using control::heidenhain::NumberStyle;
 using control::heidenhain::TextTable;
 
 namespace {
@@ -36,6 +37,12 @@ std::vector<std::string> columnsOf(std::string_view text) {
 template <class T>
 void orAlarm(const Result<T>& done) {
   if (!done) throw Alarm("Table write error", done.error().message, done.error().advice);
+}
+
+/// Of a number in a column that shows no decimal places: a whole one needs none.
+NumberStyle styleOf(double number) {
+  constexpr double half = 0.5e-4;  // of the last of four decimal places
+  return std::abs(number - std::round(number)) < half ? NumberStyle{.decimals = 0} : NumberStyle{};
 }
 
 VariableRef behind(VariableRef variable, std::size_t count) {
@@ -75,7 +82,8 @@ void Tables::write(const Command& command, Evaluation& evaluation) {
     if (isText(value)) {
       orAlarm(table_->setCell(row, columns[i], std::get<std::string>(value)));
     } else {
-      orAlarm(table_->setNumber(row, columns[i], std::get<double>(value)));
+      const double number = std::get<double>(value);
+      orAlarm(table_->setNumber(row, columns[i], number, styleOf(number)));
     }
   }
   control_.panel.file(table_->file(), table_->bytes());
