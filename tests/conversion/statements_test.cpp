@@ -197,6 +197,16 @@ TEST(ConvertMotion, KeepsFeedsOfInchPrograms) {
 TEST(ConvertMotion, KeepsArraysByNumber) {
   EXPECT_TRUE(drivesTheSameFromSinumerik("AA[1]=AA[0]+AA[2]\nBB[1,0]=7\nG0 X=AA[1] Y=BB[1,0]+BB[0,1]+CC[3]\n",
                                          "DEF REAL AA[3]=SET(3,,5)\nDEF INT BB[2,2]=REP(2)\nDEF REAL CC[4]\n"));
+  for (const auto& [sizes, fits] : std::vector<std::pair<std::string, bool>>{{"1", true},
+                                                                             {"100", true},
+                                                                             {"101", false},
+                                                                             {"2,2,2", true},
+                                                                             {"10,10", true},
+                                                                             {"10,11", false},
+                                                                             {"2,500", false}}) {
+    const conversion::Conversion made = toKlartext("DEF REAL AA[" + sizes + "]\nM30\n");
+    EXPECT_EQ(made.notCarriedOver.size(), fits ? 0U : 1U) << sizes;
+  }
   const conversion::Conversion lost = toKlartext("DEF REAL AA[3]\nDEF INT II=1\nAA[II]=5\nM30\n");
   ASSERT_EQ(lost.notCarriedOver.size(), 1U);
   EXPECT_THAT(lost.text, HasSubstr("; NOT CARRIED OVER: AA[II]=5\n"));

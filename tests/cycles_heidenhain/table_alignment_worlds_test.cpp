@@ -231,6 +231,39 @@ TEST(Cycle1420, LevelsAFaceWithBAndCInTheTable) {
   }
 }
 
+/// A table that had turned before the face was measured: the preset stays at its place of the workpiece, and the tool
+/// stands square to the face above it.
+TEST(Cycle1420, KeepsThePresetAtItsPlaceOfATurnedTable) {
+  Dice dice(14203);
+  for (int at = 0; at < 8; ++at) {
+    const double stands = at % 4 == 0 ? 0 : written(dice.between(-80, 80));
+    SCOPED_TRACE(fmt::format("{} at C{}", at, stands));
+    Bench bench(ControlKind::TNC640, "mill5-table-table");
+    const Vector3 origin(10, -5, -400);
+    bench.preset(1, origin);
+    bench.believedProbe().maximumTravel = 40;
+    bench.believedProbe().setUpClearance = 10;
+    const Vector3 normal = pose(Vector3::Zero(), {dice.between(2, 6), dice.between(2, 6), 0}).linear().col(2);
+    machine::AxisPositions turned;
+    turned[*believed(bench).axisIndex("C")] = stands;
+    const Pose tableFromBase = machine::baseFromTable(believed(bench), turned).inverse();
+    bench.part(simulation::HalfSpace({origin, normal}), tableFromBase);
+    const Words words = {{1100, -30}, {1101, -25}, {1102, 0},          {1103, 35}, {1104, -20}, {1105, 0},
+                         {1106, 5},   {1107, 30},  {1108, 0},          {372, -3},  {320, 0},    {260, 60},
+                         {1125, 2},   {309, 0},    {1126, 1 + at % 2}, {1120, 0},  {1121, 1}};
+    const Ran ran = bench.run(fmt::format("L C{:+.4f} R0 FMAX\n", stands) + probe(1420, words) +
+                              "L Z+60 R0 FMAX\nL X+0 Y+0 R0 FMAX\n");
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    const Vector3 place = tableFromBase * origin, up = tableFromBase.linear() * normal;
+    const machine::AxisPositions now = ran.machine->position();
+    const Vector3 tip = machine::baseFromTable(believed(bench), now).inverse() *
+                        (machine::baseFromSpindle(believed(bench), now) * Vector3(0, 0, -bench.believedProbe().length));
+    const Vector3 above = tip - place;
+    EXPECT_LT(above.cross(up).norm(), 1e-6) << above.transpose();
+    EXPECT_NEAR(above.dot(up), 60, 5);
+  }
+}
+
 /// The C axis of 405 on a machine whose axes are not perfect: it turns too far by its own scale, and about another
 /// place than the preset.
 TEST(Cycle405, LeavesWhatTheErrorsOfTheMachineMakeOfIt) {

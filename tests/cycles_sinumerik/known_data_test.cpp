@@ -109,6 +109,19 @@ TEST(KnownData, TheRecordIsTitledByWhatIsMeasured) {
   bench.start({0, 0, -10});
   bench.tryRun("CYCLE977", {{"S_MVAR", 5}, {"S_SETV0", 40}, {"S_SETV1", 41}, {"S_FA", 6}, {"S_TSA", 2}});
   EXPECT_EQ(bench.control.journal.cycles.back().title, "Rectangular pocket 40 x 41");
+  // A size that the call leaves out is not told.
+  for (const auto& [numbers, title] : std::vector<std::pair<NamedNumbers, std::string>>{
+           {{{"S_MVAR", 1}}, "Hole"},
+           {{{"S_MVAR", 2}}, "Circular spigot"},
+           {{{"S_MVAR", 5}}, "Rectangular pocket"},
+           {{{"S_MVAR", 5}, {"S_SETV0", 40}}, "Rectangular pocket 40"},
+           {{{"S_MVAR", 6}, {"S_SETV0", 40}, {"S_SETV1", 0.5}}, "Rectangular spigot 40 x 0.5"}}) {
+    NamedNumbers call = numbers;
+    call.insert(call.end(), {{"S_FA", 6}, {"S_TSA", 2}});
+    bench.start({0, 0, -10});
+    bench.tryRun("CYCLE977", call);
+    EXPECT_EQ(bench.control.journal.cycles.back().title, title);
+  }
   // Tables and logs beside it are in millimetres.
   for (const auto& [diameter, title] :
        {std::pair{1.574803, "Hole 1.5748 inch"}, std::pair{1.581234, "Hole 1.58123 inch"}}) {

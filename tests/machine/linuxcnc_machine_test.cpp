@@ -198,6 +198,23 @@ TEST_F(Configuration, FindsOffsetsOfATrunnionInTheHalFiles) {
   EXPECT_LT((machine->tableChain[1].point - Vector3(2, 3, -400)).norm(), 1e-12);
 }
 
+/// Numbers, keys of the .ini in both ways of writing, and signals; what is none of them is not there.
+TEST_F(Configuration, ReadsValuesOfHalFilesInAllTheirForms) {
+  const auto pointWith = [&](const std::string& value, const std::string& before = "") {
+    write("point.hal", before + "setp xyzac-trt-kins.z-rot-point " + value +
+                           "\nsetp xyzac-trt-kins.y-rot-point 3\nsetp xyzac-trt-kins.x-rot-point 2\n");
+    const auto machine = read(
+        "[KINS]\nKINEMATICS = xyzac-trt-kins sparm=identityfirst\nJOINTS = 5\n[TRAJ]\nCOORDINATES = XYZAC\n"
+        "[TRUNNION]\nZ = -400\nLOW(Z) = 1\n(Z) = -7\n[HAL]\nHALFILE = point.hal\n" +
+        joints(5));
+    return machine && machine->tableChain.size() == 2 ? machine->tableChain[1].point : Vector3(0, 0, 1e9);
+  };
+  for (const std::string value : {"-400", "-400.0", "[TRUNNION]Z", "[TRUNNION](Z)", "-4e2"})
+    EXPECT_LT((pointWith(value) - Vector3(2, 3, -400)).norm(), 1e-12) << value;
+  for (const std::string value : {"[TRUNNION]Q", "[TRUNNION](Q)", "[TRUNNION", "[OTHER]Z", "[TRUNNION]()", "low"})
+    EXPECT_GT((pointWith(value) - Vector3(2, 3, -400)).norm(), 1) << value;
+}
+
 TEST_F(Configuration, AsksForAPivotThatNoFileTells) {
   const std::string ini =
       "[KINS]\nKINEMATICS = 5axiskins\n[TRAJ]\nCOORDINATES = XYZBCW\n[HAL]\nHALCMD = net p sum.out "

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <array>
 
 #include "machine/machine_file.hpp"
@@ -66,6 +68,19 @@ TEST_F(Standing, KeepsWhatTheMachineHasToCatchUpWith) {
     machine.function(number);
   EXPECT_THAT(machine.orders().functions, ElementsAre(50, 9)) << "M9 ended M8 and nothing else";
   EXPECT_THAT(inner.orders, IsEmpty());
+}
+
+TEST_F(Standing, TakesTheSpeedsThatAMachineTakes) {
+  for (const Rotation rotation : {Rotation::Clockwise, Rotation::CounterClockwise}) {
+    for (const double speed : {0.0, 0.5, 1e5}) {
+      EXPECT_EQ(machine.turnSpindle(rotation, speed).end, MoveEnd::Reached) << speed;
+      ASSERT_TRUE(machine.orders().rotation);
+      EXPECT_EQ(machine.orders().rotation->speed, speed);
+    }
+    for (const double speed : {-1.0, -1e-9, std::nan(""), HUGE_VAL})
+      EXPECT_EQ(machine.turnSpindle(rotation, speed).end, MoveEnd::Refused) << speed;
+  }
+  EXPECT_EQ(machine.turnSpindle(Rotation::None, -1).end, MoveEnd::Reached) << "no speed to stop with";
 }
 
 TEST_F(Standing, IsTheMachineOnceItIsReleased) {

@@ -274,7 +274,7 @@ TEST(DamagedParts, WhoseFacesBelongToNothingAreNamed) {
   ASSERT_FALSE(solid);
   EXPECT_GT(solid.error().place.line, 0U);
   EXPECT_THAT(format(solid.error()),
-              AllOf(HasSubstr(fmt::format("of its {} faces, the first #", faces.size())),
+              AllOf(HasSubstr(fmt::format("of its {} faces, the first #{} ADVANCED_FACE", faces.size(), faces.front())),
                     HasSubstr("ADVANCED_FACE, none belongs to the shape of a product in a way that can be read")));
 }
 

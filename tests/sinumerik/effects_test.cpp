@@ -235,6 +235,17 @@ TEST(SinumerikEffects, ToolsAndCirclesThatProgramsAskForAreTold) {
   EXPECT_NEAR(world.r(4), 5, 1e-9);
   EXPECT_EQ(world.alarm("DEF REAL PT[3,2]=SET(0,0,1,0,2,0)\nDEF REAL RES[3]\nCALCDAT(PT,3,RES)\n"), "14051");
   EXPECT_EQ(world.alarm("CALCDAT(1,3,2)\n"), "14020");
+  const std::string arrays =
+      "DEF REAL PT[4,2]=SET(15,20,10,25,5,20,10,15)\nDEF REAL RES[3]\nDEF REAL OFT[2,2]\n"
+      "DEF REAL ONE[4,1]\nDEF REAL TWO[2]\nDEF INT INTS[4,2]\n";
+  for (const char* wrong : {"CALCDAT(PT,2,RES)", "CALCDAT(PT,5,RES)", "CALCDAT(OFT,3,RES)", "CALCDAT(ONE,3,RES)",
+                            "CALCDAT(PT,3,TWO)", "CALCDAT(PT,3)", "CALCDAT(INTS,3,RES)"})
+    EXPECT_EQ(World().alarm(arrays + wrong + "\n"), "14020") << wrong;
+  World four;
+  four.run(arrays + "CALCDAT(PT,4,RES)\nR1=RES[0] R2=RES[1] R3=RES[2]\n");
+  EXPECT_NEAR(four.r(1), 10, 1e-9);
+  EXPECT_NEAR(four.r(2), 20, 1e-9);
+  EXPECT_NEAR(four.r(3), 5, 1e-9);
 }
 
 }  // namespace
