@@ -203,9 +203,14 @@ TEST(ConvertMotion, KeepsArraysByNumber) {
                                                                              {"2,2,2", true},
                                                                              {"10,10", true},
                                                                              {"10,11", false},
-                                                                             {"2,500", false}}) {
-    const conversion::Conversion made = toKlartext("DEF REAL AA[" + sizes + "]\nM30\n");
-    EXPECT_EQ(made.notCarriedOver.size(), fits ? 0U : 1U) << sizes;
+                                                                             {"2,500", false},
+                                                                             {"II", false}}) {
+    const conversion::Conversion made =
+        toKlartext((sizes == "II" ? "DEF INT II=3\n" : "") + ("DEF REAL AA[" + sizes) + "]\nM30\n");
+    ASSERT_EQ(made.notCarriedOver.size(), fits ? 0U : 1U) << sizes;
+    if (!fits) {
+      EXPECT_THAT(made.notCarriedOver[0].message, HasSubstr("array AA has more elements than there are free"));
+    }
   }
   const conversion::Conversion lost = toKlartext("DEF REAL AA[3]\nDEF INT II=1\nAA[II]=5\nM30\n");
   ASSERT_EQ(lost.notCarriedOver.size(), 1U);
