@@ -295,5 +295,35 @@ TEST(CorrectionTargets, Cycle977NamesEachResultAfterItsVariant) {
   }
 }
 
+/// A turning tool in a head that is turned (bit 2 of MD 51740): where the next surface comes to lie follows from all of
+/// its lengths. It must move by the difference along the measuring axis, and nowhere else.
+TEST(CorrectionTargets, OfATurnedHeadAreAllLengthsThatAct) {
+  for (const double angle : {30.0, 50.0, 90.0}) {
+    constexpr double table = -350;
+    simulation::Truth truth = perfectWorld("mill5-head-head");
+    place(truth, simulation::Box({0, 0.15, -60}, {120, 100, 0}), translation({0, 0, table}));
+    SinumerikBench bench(truth);
+    plantFrame(bench, "$P_UIFR", 1, {0, 0, table});
+    control::sinumerik::setMaskBit(bench.control.data, "$MNS_MEA_FUNCTION_MASK", 1, false);
+    control::sinumerik::setMaskBit(bench.control.data, "$MNS_MEA_FUNCTION_MASK", 2, true);
+    bench.set("$TC_DP3", {1, 1}, 98);
+    bench.control.data.set("$TC_TP2", {2}, std::string("TURN"));
+    bench.set("$TC_DP1", {2, 1}, 500);
+    bench.set("$TC_DP2", {2, 1}, 3);
+    bench.set("$TC_DP3", {2, 1}, 80);
+    bench.run("CYCLE978",
+              {{"S_MVAR", 200}, {"S_KNUM1", 1}, {"S_FA", 6}, {"S_TSA", 5}, {"S_MA", 2}, {"S_MD", 1}, {"S_SETV", 0}},
+              {{"S_TNAME", "TURN"}},
+              fmt::format("SUPA G0 Z0 D0\nD1\nTRAORI\nG0 A{} C0\nG0 X30 Y-60 Z-20\nG0 Y-20\n", angle));
+    EXPECT_NEAR(bench.ovr(4), 0.15, 1e-7);
+    // In G17 length 1 of a turning tool lies along Y, length 2 along X, length 3 along Z. The tip is at minus the
+    // lengths from the reference point, turned with the head about X.
+    const Vector3 change(bench.data("$TC_DP13", {2, 1}), bench.data("$TC_DP12", {2, 1}),
+                         bench.data("$TC_DP14", {2, 1}));
+    const Vector3 moved = rotation(Vector3::UnitX(), angle) * Vector3(-change);
+    EXPECT_LT((moved - Vector3(0, 0.15, 0)).norm(), 1e-7) << angle << ": " << moved.transpose();
+  }
+}
+
 }  // namespace
 }  // namespace probewright

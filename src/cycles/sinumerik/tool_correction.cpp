@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <ranges>
+#include <vector>
 
 #include "base/number_text.hpp"
 #include "base/truncated.hpp"
@@ -98,10 +101,10 @@ std::optional<ToolTarget> toolTarget(Context& context) {
   return target;
 }
 
-/// The datum that a correction changes: 0, 1, 2 are length 1, 2, 3, and 3 is the radius.
+/// A datum that a correction changes: 0, 1, 2 are length 1, 2, 3, and 3 is the radius.
 struct Corrected {
   int component = 0;
-  double sign = 1;  ///< -1: the length acts against the measuring axis
+  double share = 1;  ///< how far the length acts in the measuring axis; -1: against it
 };
 
 /// True if rotary axes have turned the head that holds the tools.
@@ -111,38 +114,41 @@ bool carrierIsTurned(const Context& context) {
 }
 
 /// The tool as its carrier holds it now, in a head that rotary axes have turned (bit 2 of MD 51740): its lengths act
-/// where the head has turned their axes.
-Corrected onTurnedCarrier(const Context& context, const ToolTarget& target, const ToolEdge& edge,
-                          const ToolInfluence& influence, const std::array<int, 3>& lengths) {
+/// where the head has turned their axes, at an angle several of them. The one that acts most comes first.
+std::vector<Corrected> onTurnedCarrier(const Context& context, const ToolTarget& target, const ToolEdge& edge,
+                                       const ToolInfluence& influence, const std::array<int, 3>& lengths) {
   const Vector3 seen = probing::directionFromSpindle(context.control().channel, context.control().workingPlane(),
                                                      PlaneWay::unit(influence.measuringAxis));
-  const auto signOf = [&](int component) {
-    return seen[lengths[static_cast<std::size_t>(component)]] < -1e-9 ? -1.0 : 1.0;
-  };
+  const auto shareOf = [&](int component) { return seen[lengths[static_cast<std::size_t>(component)]]; };
+  const auto signOf = [&](int component) { return shareOf(component) < -1e-9 ? -1.0 : 1.0; };
   if (target.component != Component::FromAxis) {
     const int component = static_cast<int>(target.component) - 1;
-    return {component, signOf(component)};
+    return {{component, signOf(component)}};
   }
-  Eigen::Index axis = 0;
-  seen.cwiseAbs().maxCoeff(&axis);
-  const auto component = static_cast<int>(std::ranges::find(lengths, static_cast<int>(axis)) - lengths.begin());
-  if (!edge.isTurning() && component != 0) return {3, 1};
-  return {component, signOf(component)};
+  constexpr double least = 1e-3;  // less is a head that leans a little beside its drawing
+  std::vector<Corrected> corrected;
+  for (int component = 0; component < 3; ++component)
+    if (std::abs(shareOf(component)) > least) corrected.push_back({component, shareOf(component)});
+  std::ranges::sort(corrected, std::greater(), [](const Corrected& each) { return std::abs(each.share); });
+  if (edge.isTurning()) return corrected;
+  const int component = corrected.front().component;
+  if (component != 0) return {{3, 1}};
+  return {{component, signOf(component)}};
 }
 
-Corrected correctedBy(const Context& context, const ToolTarget& target, const ToolEdge& edge,
-                      const ToolInfluence& influence) {
-  if (target.component == Component::Radius) return {3, 1};
+std::vector<Corrected> correctedBy(const Context& context, const ToolTarget& target, const ToolEdge& edge,
+                                   const ToolInfluence& influence) {
+  if (target.component == Component::Radius) return {{3, 1}};
   const int plane = context.control().plane;
   const auto type = lengthType(context.control());
   const auto lengths = lengthAxes(planeOfLengths(context.control().data, plane), edge, type);
   if (maskBit(context.control().data, "$MNS_MEA_FUNCTION_MASK", 2) && influence.surface && carrierIsTurned(context))
     return onTurnedCarrier(context, target, edge, influence, lengths);
-  if (target.component != Component::FromAxis) return {static_cast<int>(target.component) - 1, 1};
+  if (target.component != Component::FromAxis) return {{static_cast<int>(target.component) - 1, 1}};
   if (!edge.isTurning() && (influence.radiusFromAxis || type != control::sinumerik::LengthType::AsTurning))
-    return {influence.radiusFromAxis ? 3 : 0, 1};
+    return {{influence.radiusFromAxis ? 3 : 0, 1}};
   const int axis = control::WorkingPlane::ofG(plane).axis(static_cast<int>(influence.measuringAxis));
-  return {static_cast<int>(std::ranges::find(lengths, axis) - lengths.begin()), 1};
+  return {{static_cast<int>(std::ranges::find(lengths, axis) - lengths.begin()), 1}};
 }
 
 void addTo(Context& context, const ToolTarget& target, const std::string& name, double amount) {
@@ -322,10 +328,12 @@ void correctTool(Context& context, std::span<const Dimension> dimensions, const 
   double written = 0;
   if (decision.corrects) {
     const ToolEdge edge = toolEdge(control.data, target->tool, target->edge).value_or(ToolEdge{});
-    const auto [component, sign] = correctedBy(context, *target, edge, influence);
-    written = decision.correction * (component == 3 ? influence.radius : sign * influence.length);
-    if (target->inverted) written = -written;
-    writeCorrection(context, *target, edge, component, written);
+    const std::vector<Corrected> corrected = correctedBy(context, *target, edge, influence);
+    for (const auto& [component, share] : std::views::reverse(corrected)) {
+      written = decision.correction * (component == 3 ? influence.radius : share * influence.length);
+      if (target->inverted) written = -written;
+      writeCorrection(context, *target, edge, component, written);
+    }
   }
   if (memory != 0 && decision.mean) {
     const DataKey key("$SCS_MEA_AVERAGE_VALUE", {memory - 1});
