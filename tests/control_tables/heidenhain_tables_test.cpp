@@ -67,6 +67,16 @@ TEST(ToolTable, NamesANumberOfTeethThatIsNotWhole) {
   EXPECT_THAT(format(diagnostics[0]), HasSubstr("TOOL.T:4:11: error: column CUT takes a whole number"));
 }
 
+TEST(ToolTable, TakesTheSignsOfTheCuttingDirectionOnly) {
+  Diagnostics diagnostics;
+  ASSERT_TRUE(
+      TypedTable::parse("BEGIN TOOL.T MM\nT  L     DIRECT\n1  12.5  -\n2  12.5  +\n3  12.5\n4  12.5  M4\n[END]\n",
+                        "TOOL.T", toolColumns(), diagnostics));
+  ASSERT_EQ(diagnostics.size(), 1U);
+  EXPECT_THAT(format(diagnostics[0]), HasSubstr("TOOL.T:6:10: error: column DIRECT takes - or +"));
+  EXPECT_THAT(format(diagnostics[0]), HasSubstr("+ is M4; an empty entry is -"));
+}
+
 TEST(ToolTable, InchTablesConvertAtTheBorder) {
   Diagnostics diagnostics;
   auto table = TypedTable::parse("BEGIN TOOL.T INCH\nT  L          ANGLE\n1  +2.00000   +30.000\n[END]\n", "T",

@@ -1,6 +1,7 @@
 #include "control/heidenhain/typed_table.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,6 +24,26 @@ Result<void> inNewRow(TypedTable& table, std::string_view row, const Set& set) {
   if (auto done = set(grown); !done) return done;
   table = std::move(grown);
   return {};
+}
+
+/// What is wrong with an entry, and what to write.
+struct Mistake {
+  std::string message, advice;
+};
+
+std::optional<Mistake> mistakeIn(std::string_view entry, const ColumnSpec& column, std::string_view name) {
+  if (column.kind == CellKind::Text) {
+    if (column.signs.empty() || (entry.size() == 1 && column.signs.find(entry.front()) != std::string_view::npos))
+      return std::nullopt;
+    return Mistake{fmt::format("column {} takes {}", name, fmt::join(column.signs, " or ")),
+                   fmt::format("{}; an empty entry is {}", column.meaning, column.signs.front())};
+  }
+  const auto value = parseDecimal(entry);
+  const bool isWhole = column.kind == CellKind::Integer;
+  if (value && (!isWhole || *value == std::round(*value))) return std::nullopt;
+  return Mistake{fmt::format("column {} takes a {}number", name, isWhole ? "whole " : ""),
+                 isWhole ? "write a number without decimal places, or leave the entry empty"
+                         : "write a number with a decimal point, or leave the entry empty"};
 }
 
 }  // namespace
@@ -85,20 +106,16 @@ Diagnostics TypedTable::check() const {
   }
   for (const std::string& row : table_.keys()) {
     for (const ColumnSpec& column : columns_) {
-      if (column.kind == CellKind::Text) continue;
-      const auto entry = table_.cell(row, nameInFile(column.name()));
+      const std::string_view name = nameInFile(column.name());
+      const auto entry = table_.cell(row, name);
       if (!entry || entry->empty()) continue;
-      const auto value = parseDecimal(*entry);
-      const bool isWhole = column.kind == CellKind::Integer;
-      if (value && (!isWhole || *value == std::round(*value))) continue;
-      diagnostics.push_back(
-          {Severity::Error,
-           table_.place(row, nameInFile(column.name())),
-           fmt::format("column {} takes a {}number", nameInFile(column.name()), isWhole ? "whole " : ""),
-           entry->substr(0, 60),
-           isWhole ? "write a number without decimal places, or leave the entry empty"
-                   : "write a number with a decimal point, or leave the entry empty",
-           {}});
+      if (auto wrong = mistakeIn(*entry, column, name))
+        diagnostics.push_back({Severity::Error,
+                               table_.place(row, name),
+                               std::move(wrong->message),
+                               entry->substr(0, 60),
+                               std::move(wrong->advice),
+                               {}});
     }
   }
   return diagnostics;

@@ -32,6 +32,8 @@ struct ColumnSpec {
   std::string_view meaning;
   std::string_view initial = {};    ///< text of a new row
   ControlSet controls = onBothTNC;  ///< in tables created here: left out on the others
+  std::string_view signs =
+      {};  ///< the entries of a text, one character each; an empty cell counts as the first; none: any text
 
   constexpr std::string_view name() const { return column.name(); }
 };
@@ -42,8 +44,9 @@ class TypedTable {
 public:
   TypedTable(TextTable table, std::span<const ColumnSpec> columns) : table_(std::move(table)), columns_(columns) {}
 
-  /// Reads and checks a table: an entry of a known number column that isn't a number is an error in `diagnostics`, a
-  /// missing key column too. The table is usable all the same: such a cell counts as empty.
+  /// Reads and checks a table: an entry of a known number column that isn't a number is an error in `diagnostics`, and
+  /// so are a text that its column does not have and a missing key column. The table is usable all the same: such a
+  /// cell counts as empty.
   static Result<TypedTable> parse(std::string_view bytes, std::string file, std::span<const ColumnSpec> columns,
                                   Diagnostics& diagnostics);
 
