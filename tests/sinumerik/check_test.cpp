@@ -31,6 +31,15 @@ TEST(SinumerikCheck, AGoodProgramHasNoMistakes) {
   EXPECT_EQ(found[0].message, "the destination N10 is missing");
 }
 
+TEST(SinumerikCheck, NamesTheNextProgramOfAnArchive) {
+  const Diagnostics found =
+      checkText("%_N_AA_MPF\n;$PATH=/_N_MPF_DIR\nG0 X5\nM30\n%_N_BB_SPF\n;$PATH=/_N_SPF_DIR\nG0 X6\nM17\n");
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].place.line, 5U);
+  EXPECT_EQ(found[0].message, "%_N_BB_SPF begins another program in the middle of this one");
+  EXPECT_TRUE(checkText("\n; archived\n%_N_AA_MPF\n;$PATH=/_N_MPF_DIR\nG0 X5\nM30\n").empty());
+}
+
 TEST(SinumerikCheck, KnowsWhatEachDigitOfACycleParameterCanBe) {
   const auto complaint = [](const std::string& call) {
     const Diagnostics found = checkText(call + "\nM30\n");

@@ -171,6 +171,19 @@ TEST(Posts, ProgramsRunAndSayWhatTheySkip) {
   }
 }
 
+/// Machine builders give their axes names of their own.
+TEST(Posts, AxesThatAreNotKnownAreNamedAsSuch) {
+  for (const std::string dimension : {"AC", "IC", "DC", "ACP", "ACN"}) {
+    const auto program = SinumerikProgram::fromText("MAIN.MPF", "G0 X5 XV=" + dimension + "(3)\nM30\n");
+    const Diagnostics found = check(*program);
+    const auto named = std::ranges::find_if(found, [](const Diagnostic& each) { return each.place.column == 10U; });
+    ASSERT_NE(named, found.end());
+    EXPECT_NE(named->message.find(dimension + " is written behind the name of an axis only"), std::string::npos)
+        << named->message;
+    EXPECT_NE(named->advice.find("The axes are X, Y, Z"), std::string::npos) << named->advice;
+  }
+}
+
 TEST(Posts, WordsOfOtherDialectsAreExplained) {
   const auto advice = [](const std::string& text) {
     const auto program = SinumerikProgram::fromText("MAIN.MPF", text);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "language/sinumerik/check.hpp"
 #include "sinumerik/world.hpp"
 
 /// Expressions, variables, flow: what programs compute, held against C++ and closed forms.
@@ -32,7 +33,10 @@ TEST(SinumerikValues, ExpressionsAreWorthWhatTheLanguageSays) {
       {"(1>2) OR (2>=2)", 1},
       {"TRUE XOR TRUE", 0},
       {"3<>4", 1},
-      {"0.1+0.2==0.3", 1},  // relative equality of 1EX-12
+      {"0.1+0.2==0.3", 1},       // relative equality of 1EX-12
+      {"NUMBER(<<1<<2+3)", 15},  // << before a value makes a text of it
+      {"STRLEN(<<-12.5)", 5},
+      {"STRLEN((<<7)<<(<<8))", 2},
       {"SIN(30)", 0.5},
       {"COS(60)", 0.5},
       {"TAN(45)", 1},
@@ -257,6 +261,23 @@ TEST(SinumerikFlow, MachiningCyclesAreNotedOnceAndRefusedIfStrict) {
   const auto result =
       execution::Interpreter(world.texts, strict).run(SinumerikProgram::fromText("M.MPF", "CYCLE81(10,0,2,-5)\n"));
   EXPECT_EQ(result.end, execution::RunEnd::Alarm);
+}
+
+/// AX1, AX2...: the axes of the machine in their order.
+TEST(SinumerikVariables, AxesOfTheMachineHaveNumbers) {
+  World world;
+  const std::string text =
+      "G0 X11 Y12 Z13\nR1=$AA_IM[AX1]-$AA_IM[X] R2=$AA_IM[ax2]-$AA_IM[Y] R3=$AA_IW[AX3] R4=$MA_POS_LIMIT_PLUS[AX1]\n"
+      "R5=$MA_POS_LIMIT_PLUS[X]\n$SA_WORKAREA_LIMIT_PLUS[AX2]=5\nR6=$SA_WORKAREA_LIMIT_PLUS[AX2]\nM30\n";
+  for (const Diagnostic& each : check(*SinumerikProgram::fromText("MAIN.MPF", text)))
+    EXPECT_NE(each.severity, Severity::Error) << format(each);
+  world.run(text);
+  EXPECT_EQ(world.r(1), 0);
+  EXPECT_EQ(world.r(2), 0);
+  EXPECT_EQ(world.r(3), 13);
+  EXPECT_EQ(world.r(4), world.r(5));
+  EXPECT_NE(world.r(4), 0);
+  EXPECT_EQ(world.r(6), 5);
 }
 
 TEST(SinumerikVariables, SystemVariablesShowAndChangeTheControl) {

@@ -93,6 +93,17 @@ Value SystemVariables::read(std::string_view name, std::span<const Value> indice
   return datum(name, indices);
 }
 
+/// The axis that the first index names; AX2 is the second one of the machine.
+std::string SystemVariables::machineAxisAt(std::span<const Value> indices, std::string_view name) const {
+  std::string axis = axisAt(indices, 0, name);
+  if (!axis.starts_with("AX")) return axis;
+  const auto& axes = control_.channel.description().axes;
+  const auto number = parseInteger(std::string_view(axis).substr(2));
+  return number && *number >= 1 && static_cast<std::size_t>(*number) <= axes.size()
+             ? upperCase(axes[static_cast<std::size_t>(*number) - 1].name)
+             : axis;
+}
+
 std::optional<Value> SystemVariables::readPosition(std::string_view name, std::span<const Value> indices) {
   enum class System { Workpiece, Machine };
   System system = System::Workpiece;
@@ -110,7 +121,7 @@ std::optional<Value> SystemVariables::readPosition(std::string_view name, std::s
     return std::nullopt;
   }
   motion_.flush();
-  const std::string axis = axisAt(indices, 0, name);
+  const std::string axis = machineAxisAt(indices, name);
   const std::uint32_t address = language::addressOf(axis);
   const auto linear = PathMotion::linearAxis(address);
   const auto machineAxis = motion_.machineAxis(address);
@@ -234,7 +245,7 @@ std::optional<Value> SystemVariables::readState(std::string_view name, std::span
   if (name == "$P_D") return number(control_.tool.edge);
   if (name == "$MC_MM_NUM_USER_FRAMES") return number(control_.machineData(name, 100));
   if (name == "$MA_POS_LIMIT_PLUS" || name == "$MA_POS_LIMIT_MINUS") {
-    const auto axis = motion_.machineAxis(language::addressOf(axisAt(indices, 0, name)));
+    const auto axis = motion_.machineAxis(language::addressOf(machineAxisAt(indices, name)));
     if (!axis) throw Alarm("17020", fmt::format("{}: there is no such axis", name));
     const machine::Axis& travel = control_.channel.description().axes[*axis];
     return number(name == "$MA_POS_LIMIT_PLUS" ? travel.maximum : travel.minimum);

@@ -29,6 +29,7 @@ public:
   bool exists(std::string_view name, std::span<const Value> indices) const;
 
 private:
+  std::string machineAxisAt(std::span<const Value> indices, std::string_view name) const;
   std::optional<Value> readState(std::string_view name, std::span<const Value> indices);
   std::optional<Value> readPosition(std::string_view name, std::span<const Value> indices);
   std::optional<Value> readFrame(std::string_view name, std::span<const Value> indices);

@@ -147,6 +147,7 @@ private:
   language::Operand parseBinary(Priority lowest);
   language::Operand parseUnary();
   language::Operand parsePrimary();
+  language::Operand emptyText();
   language::Operand parseString();
   language::Operand parseQuotedConstant();
   language::Operand parseNamedValue();

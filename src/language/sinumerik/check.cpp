@@ -86,6 +86,16 @@ void Checker::declareFromBrokenBlock() {
   }
 }
 
+/// An archive holds several programs, each below the line with its name.
+void Checker::checkHeader() {
+  const std::string_view line = trimmed(block_.at(block_.source), lineBlanks);
+  const bool isHeader = upperCase(line.substr(0, 4)) == "%_N_";
+  if (isHeader && begun_) {
+    report(0, fmt::format("{} begins another program in the middle of this one", line.substr(0, 60)),
+           "A file holds one program: write the other into its own file.", Severity::Error);
+  }
+}
+
 /// Variables that are not declared, system variables that the control cannot have.
 void Checker::checkNames() {
   for (const VariableRef& variable : block_.variables) {
@@ -291,6 +301,7 @@ Diagnostics Checker::run() {
     }
     if (found_.size() > before) declareFromBrokenBlock();
     if (block_.skippable || block_.label.length > 0) state_ = {};
+    checkHeader();
     for (const Instruction& instruction : block_.instructions)
       declare(instruction);
     checkNames();

@@ -39,6 +39,7 @@ private:
   void declare(const Instruction& instruction);
   void declareFromBrokenBlock();
   void checkSection(const CallProgram& call, Program& other);
+  void checkHeader();
   void checkNames();
   void checkPriorities();
   void checkFunctions();

@@ -2,6 +2,7 @@
 #include <array>
 #include <charconv>
 
+#include "base/number_text.hpp"
 #include "language/sinumerik/block_parser.hpp"
 
 namespace probewright::language::sinumerik {
@@ -43,6 +44,16 @@ BinaryOperator operatorAt(const Cursor& cursor) {
   return {};
 }
 
+/// AX1 to AX31: the axes of the machine by their numbers.
+bool isMachineAxis(std::string_view name) {
+  if (!name.starts_with("AX")) return false;
+  const auto number = parseInteger(name.substr(2));
+  return number && *number >= 1 && *number <= 31;
+}
+
+/// How the value of an axis counts.
+constexpr std::array<std::string_view, 5> dimensions = {"AC", "IC", "DC", "ACP", "ACN"};
+
 constexpr Priority above(Priority priority) { return static_cast<Priority>(static_cast<int>(priority) + 1); }
 
 }  // namespace
@@ -54,7 +65,9 @@ Operand BlockParser::parseBinary(Priority lowest) {
     fail(cursor_.offset(), "this expression is nested too deeply", "Split it into several assignments.");
     return {};
   }
-  Operand left = parseUnary();
+  cursor_.skipBlanks();
+  const bool makesText = lowest <= Priority::Concatenation && cursor_.rest().starts_with("<<");
+  Operand left = makesText ? emptyText() : parseUnary();  // <<R1 is ""<<R1
   for (int terms = 1;; ++terms) {
     cursor_.skipBlanks();
     const BinaryOperator op = operatorAt(cursor_);
@@ -141,6 +154,13 @@ Operand BlockParser::parsePrimary() {
   return {};
 }
 
+Operand BlockParser::emptyText() {
+  Node node;
+  node.operation = Operation::Text;
+  node.text = block_->add("");
+  return add(node);
+}
+
 Operand BlockParser::parseString() {
   const std::size_t start = cursor_.offset() + 1;
   const std::size_t end = upper_.find('"', start);
@@ -206,6 +226,12 @@ Operand BlockParser::parseNamedValue() {
         cursor_.advance(name.size());
         return parseFunction(name, start);
       }
+      if (isMachineAxis(name)) {
+        cursor_.advance(name.size());
+        node.operation = Operation::AxisName;
+        node.text = upper(name);
+        return add(node);
+      }
       if (keywordOf(name) != Keyword::None && keywordOf(name) != Keyword::Statement) {
         fail(start, "a value was expected here, not the reserved word " + std::string(name));
         return {};
@@ -232,6 +258,11 @@ Operand BlockParser::parseFunction(std::string_view name, std::size_t start) {
     if (!expect(')', "at the end of the arguments")) return {};
   }
   const FunctionEntry* entry = functionOf(name);
+  if (entry == nullptr && std::ranges::find(dimensions, name) != dimensions.end()) {
+    fail(start, std::string(name) + " is written behind the name of an axis only, and there is none before it",
+         "The axes are X, Y, Z, A, B, C, U, V, W and E, also with a number: X1=" + std::string(name) + "(5).");
+    return {};
+  }
   if (entry == nullptr) {
     std::vector<std::string_view> names;
     for (const FunctionEntry& known : functions())
