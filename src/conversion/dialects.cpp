@@ -167,7 +167,7 @@ public:
 private:
   void report(const Block& block, std::string message, std::string advice) {
     std::string_view line = block.at(block.source);
-    line = trimmedAtEnd(line.substr(0, line.find('\n')));
+    line = trimmedAtEnd(line.substr(0, line.find('\n')), lineBlanks);
     result_.notCarriedOver.push_back({Severity::Warning,
                                       {program_.file(), block.position.line, 1},
                                       std::move(message),
@@ -233,7 +233,7 @@ private:
     const std::string_view text = language::klartext::withoutBlockNumber(block.at(block.source));
     bool first = true;
     forEachLine(text, [&](std::string_view rest) {
-      rest = trimmedAtEnd(rest);
+      rest = trimmedAtEnd(rest, lineBlanks);
       while (rest.ends_with('~'))
         rest = trimmedAtEnd(rest.substr(0, rest.size() - 1));
       const bool marked = rest.empty() || rest.front() == ';' || rest.front() == '*';
@@ -270,7 +270,7 @@ private:
     if (block.instructions.empty()) {  // nothing but modal functions
       const std::string_view source = block.at(block.source);
       const std::size_t remark = source.find(';');
-      if (remark != std::string_view::npos) line(std::string(trimmedAtEnd(source.substr(remark))), Text::Remark);
+      if (remark != std::string_view::npos) line(std::string(trimmedAtEnd(source.substr(remark), lineBlanks)), Text::Remark);
       return;
     }
     const bool oldMachining = std::ranges::any_of(block.instructions, [&block](const Instruction& instruction) {
@@ -296,7 +296,7 @@ private:
   void leaveOut(const Block& original, std::string message, std::string advice) {
     report(original, std::move(message), std::move(advice));
     forEachLine(original.at(original.source), [this](std::string_view rest) {
-      line(fmt::format("; NOT CARRIED OVER: {}{}", trimmedAtEnd(rest), toDinIso_ ? " *" : ""), Text::Remark);
+      line(fmt::format("; NOT CARRIED OVER: {}{}", trimmedAtEnd(rest, lineBlanks), toDinIso_ ? " *" : ""), Text::Remark);
     });
   }
 

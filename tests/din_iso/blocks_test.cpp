@@ -180,6 +180,12 @@ TEST(DinIso, ACycleTakesOnlyItsOwnLines) {
   EXPECT_EQ(resolvedText("N10 G421 MEASURE HOLE ~\n Q273=+50 *\nQ274=+5 *\n"), "Cycle 421 TCH PROBE 273=50\nQ274 := 5");
 }
 
+TEST(DinIso, EmptyLinesBetweenTheParametersOfACycle) {
+  const std::string once = resolvedText("N10 G404 A ~\nQ307=+0 ~\nQ305=1 *\nN20 G00 G90 X+1 *\n");
+  EXPECT_EQ(resolvedText("N10 G404 A ~\r\n\r\nQ307=+0 ~\r\n\r\n\r\nQ305=1 *\r\n\r\nN20 G00 G90 X+1 *\r\n"), once);
+  EXPECT_EQ(resolvedText("N10 G404 A\n\nQ307=+0\n\nQ305=1 *\nN20 G00 G90 X+1 *\n"), once);
+}
+
 TEST(DinIso, MistakesNamePlaceAndReason) {
   EXPECT_EQ(resolvedText("N10 G00 X+ *"), "1:12: a number or a Q parameter is expected for X");
   EXPECT_EQ(resolvedText("N10 G00 G01 X+5 *"), "1:9: a block has one path function only");

@@ -81,6 +81,22 @@ constexpr const char* dinIsoProgram =
     "N180 G98 L\"END\" *\n"
     "N99999999 %PLATE G71 *\n";
 
+TEST(Convert, WritesRowsOfTablesWithoutASign) {
+  const std::string inDinIso = toDinIso("0 BEGIN PGM P MM\n1 PRESET SELECT #3\n2 END PGM P MM\n").text;
+  EXPECT_THAT(inDinIso, HasSubstr("N10 PRESET SELECT #3 *\n"));
+  EXPECT_THAT(toKlartext(inDinIso).text, HasSubstr("1 PRESET SELECT #3\n"));
+}
+
+TEST(Convert, NamesBlocksOfFilesWithCarriageReturns) {
+  const Conversion conversion =
+      toDinIso("0 BEGIN PGM P MM\r\n1 CYCL DEF 1.0 PECKING\r\n2 CYCL DEF 1.1 SET UP 2\r\n3 END PGM P MM\r\n");
+  ASSERT_EQ(conversion.notCarriedOver.size(), 1U);
+  EXPECT_EQ(conversion.notCarriedOver[0].excerpt, "1 CYCL DEF 1.0 PECKING");
+  EXPECT_THAT(conversion.text, HasSubstr("; NOT CARRIED OVER: 2 CYCL DEF 1.1 SET UP 2 *\n"));
+  EXPECT_EQ(toDinIso("0 BEGIN PGM P MM\r\n1 ; one ~\r\ntwo ~\r\nthree\r\n2 END PGM P MM\r\n").text,
+            "%P G71 *\nN10 ; one *\nN20 ; two *\nN30 ; three *\nN99999999 %P G71 *\n");
+}
+
 TEST(Convert, WritesKlartextInDinIso) {
   const Conversion conversion = toDinIso(klartextProgram);
   EXPECT_TRUE(conversion.mistakes.empty());

@@ -1,10 +1,55 @@
 #include <gtest/gtest.h>
 
+#include <cctype>
+
+#include "base/text.hpp"
 #include "klartext/ir_text.hpp"
+#include "klartext/samples.hpp"
 #include "language/klartext/program.hpp"
 
 namespace probewright::language::klartext::testing {
 namespace {
+
+/// The text with each character that is neither in quotation marks nor in a comment passed through `change`.
+template <class Change>
+std::string changed(std::string_view text, const Change& change) {
+  std::string out;
+  bool inText = false, inComment = false;
+  for (const char c : text) {
+    if (c == '"' && !inComment) inText = !inText;
+    inComment = c != '\n' && (inComment || (c == ';' && !inText));
+    if (inText || inComment)
+      out += c;
+    else
+      change(c, out);
+  }
+  return out;
+}
+
+/// Texts that blocks keep as they are written: capitals, one blank for several.
+std::string alike(const std::string& text) {
+  std::string out;
+  for (const char c : upperCase(text)) {
+    if (!isBlank(c))
+      out += c;
+    else if (out.empty() || out.back() != ' ')
+      out += ' ';
+  }
+  return out;
+}
+
+TEST(Blocks, WordsAreMetInEitherCaseAndWithAnyBlanks) {
+  for (const std::string_view sample : samples) {
+    const std::string asWritten = alike(irOf(std::string(sample)));
+    const std::string lower = changed(sample, [](char c, std::string& out) {
+      out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    });
+    EXPECT_EQ(alike(irOf(lower)), asWritten);
+    const std::string wide =
+        changed(sample, [](char c, std::string& out) { out += c == ' ' ? " \t " : std::string(1, c); });
+    EXPECT_EQ(alike(irOf(wide)), asWritten);
+  }
+}
 
 TEST(Blocks, FrameCommentsAndStructure) {
   EXPECT_EQ(irOf("0 BEGIN PGM RING MM\n1 ; comment\n2 * - structure\n\n3\n4 END PGM RING MM\n"),

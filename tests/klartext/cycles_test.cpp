@@ -30,6 +30,18 @@ TEST(Cycles, ParameterLinesWithoutContinuationSigns) {
   EXPECT_EQ(irOf("TCH PROBE 404 BASIC ROTATION\nQ307=+0\nQ1 = 2"), "Cycle 404 TCH PROBE 307=0\nQ1 := 2");
 }
 
+TEST(Cycles, EmptyLinesBetweenParameters) {
+  EXPECT_EQ(irOf("5 TCH PROBE 404 BASIC ROTATION ~\r\n\r\n Q307=+0 ;PRESET ~\r\n\r\n\r\n Q305=1\r\n\r\n6 Q1 = 2\r\n"),
+            "Cycle 404 TCH PROBE 307=0 305=1\nQ1 := 2");
+  EXPECT_EQ(irOf("5 L X+1 ; remark ~\n\n6 Q1 = 2"), "Linear X=1\nQ1 := 2")
+      << "no cycle: the empty line ends the remark";
+  KlartextProgram program("a.h", "5 TCH PROBE 404 A ~\n\n Q307=+0 ~\n\n Q305=1\n6 L X+1\n");
+  Block block;
+  Diagnostics none;
+  ASSERT_TRUE(program.parse(program.begin(), block, none));
+  EXPECT_EQ(block.next.line, 6U);
+}
+
 TEST(Cycles, TextParameters) {
   EXPECT_EQ(irOf("TCH PROBE 1410 EDGE ~\n QS1100=\"?30\" ;P ~\n Q1101=+5 ~\n QS600 = OS ;X"),
             "Cycle 1410 TCH PROBE 1100='?30' 1101=5 600='OS'");

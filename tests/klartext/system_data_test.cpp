@@ -292,7 +292,7 @@ TEST(Protocols, GoOnOrBeginAnewAsTheMaskSays) {
 TEST(Protocols, GoToTheScreenAndNameTheirProgram) {
   World world;
   world.files["M.A"] = "CALL_PATH\n\"DONE\";\n";
-  expectFinished(world.run("FN 16: F-PRINT M.A / SCREEN:\nFN 16: F-PRINT M.A / SCLR:\n"));
+  expectFinished(world.run("FN 16: F-PRINT M.A / Screen:\nfn 16: f-print M.A / sclr:\n"));
   const auto& events = world.control->journal.events;
   ASSERT_EQ(events.size(), 1U);
   EXPECT_EQ(events[0].text, "main.h\nDONE");

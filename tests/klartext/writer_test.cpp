@@ -41,6 +41,7 @@ TEST(Writer, PutsParametersOfTheFirstLineBelowTheName) {
     EXPECT_EQ(written(written(text)), below);
   }
   EXPECT_EQ(written("5 TCH PROBE 427 QUICK Q263=+1\n"), "0 TCH PROBE 427 QUICK ~\n    Q263=+1\n");
+  EXPECT_EQ(written("5 tch probe 427 quick q263=+1\n"), "0 TCH PROBE 427 quick ~\n    Q263=+1\n");
 }
 
 TEST(Writer, KeepsCommentsThatGoOnInTheNextLine) {
@@ -52,6 +53,13 @@ TEST(Writer, KeepsCommentsThatGoOnInTheNextLine) {
 TEST(Writer, KeepsFeedsPerToothOfBlocksWithoutPath) {
   EXPECT_EQ(written("F Z 0.1\n"), "0 L FZ+0.1\n");
   EXPECT_EQ(irOf(written("F Z 0.1\n")), irOf("0 F Z 0.1\n"));
+}
+
+TEST(Writer, WritesRowsOfTablesWithoutASign) {
+  EXPECT_EQ(written("PRESET SELECT #3 KEEP TRANS\n"), "0 PRESET SELECT #3 KEEP TRANS\n");
+  EXPECT_EQ(written("PRESET COPY #Q1 TO #2 SELECT TARGET\n"), "0 PRESET COPY #Q1 TO #2 SELECT TARGET\n");
+  EXPECT_EQ(written("TRANS DATUM TABLE TABLINE25\n"), "0 TRANS DATUM TABLE TABLINE 25\n");
+  EXPECT_EQ(written("CYCL DEF 7.0 SHIFT\nCYCL DEF 7.1 #5\n"), "0 CYCL DEF 7.0 SHIFT\n1 CYCL DEF 7.1 #5\n");
 }
 
 TEST(Writer, NumbersReadBackTheSame) {

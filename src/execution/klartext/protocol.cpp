@@ -89,8 +89,9 @@ void Protocol::write(const Command& command, Evaluation& evaluation) {
   const auto read = [&](std::string_view name) { return parameters_.readNamed(name); };
   const ProtocolResult result = formatProtocol(*bytes, read, static_cast<std::int64_t>(run_.machineSeconds()),
                                                run_.levels.back().file, control_.panel.language);
-  if (target == "SCLR:") return;  // closes the window of an earlier message
-  if (target.starts_with("SCREEN:")) {
+  const std::string device = upperCase(target);
+  if (device == "SCLR:") return;  // closes the window of an earlier message
+  if (device.starts_with("SCREEN:")) {
     if (!result.text.empty()) run_.message(std::string(trimmed(result.text, lineBlanks)));
     return;
   }

@@ -83,8 +83,17 @@ BlockExtent blockExtent(std::string_view text) {
     const std::size_t end = endSign(line);
     extent.statement = end == std::string_view::npos ? extent.length : begin + end;
     if (end != std::string_view::npos || extent.next >= text.size()) return extent;
-    const bool continued = klartext::endsWithContinuation(line) || (cycle && isParameterLine(lineAt(extent.next)));
-    if (!continued) return extent;
+    begin = extent.next;
+    std::uint64_t empty = 0;  // lines, which some editors put between the parameters of a cycle
+    while (cycle && trimmedAtEnd(lineAt(begin), blanksAndReturn).empty() && text.find('\n', begin) < text.size()) {
+      begin = text.find('\n', begin) + 1;
+      ++empty;
+    }
+    if (cycle && isParameterLine(lineAt(begin))) {
+      extent.lines += empty;
+      continue;
+    }
+    if (!klartext::endsWithContinuation(line)) return extent;
     begin = extent.next;
   }
 }

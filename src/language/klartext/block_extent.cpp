@@ -115,6 +115,18 @@ bool isContinued(std::string_view text, const Line& line) {
   return following.empty() || !isDigit(following.front());
 }
 
+/// Empty lines before the next parameter of a cycle, which some editors put there: goes on to the line with the
+/// parameter and says how many lines it skipped; none if no parameter follows.
+std::uint64_t skipEmptyLines(std::string_view text, Line& line) {
+  Line parameter = line;
+  std::uint64_t count = 0;
+  for (; trimmedAtEnd(parameter.text, blanksAndReturn).empty() && parameter.next < text.size(); ++count)
+    parameter = lineAt(text, parameter.next);
+  if (count == 0 || !isParameterLine(parameter.text, true)) return 0;
+  line = parameter;
+  return count;
+}
+
 /// True for a line that cannot be the next parameter of a cycle: it begins a block of its own.
 bool beginsBlock(std::string_view line) {
   const std::string_view text = withoutBlockNumber(line);
@@ -156,8 +168,11 @@ BlockExtent blockExtent(std::string_view text) {
     for (;;) {
       ++extent.lines;
       if (!isContinued(text, line) || line.next >= text.size()) break;
-      const Line following = lineAt(text, line.next);
-      if (parameters && beginsBlock(following.text)) break;
+      Line following = lineAt(text, line.next);
+      if (parameters) {
+        extent.lines += skipEmptyLines(text, following);
+        if (beginsBlock(following.text)) break;
+      }
       line = following;
     }
     extent.length = static_cast<std::size_t>(line.text.data() - text.data()) + line.text.size();

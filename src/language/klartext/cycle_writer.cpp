@@ -51,9 +51,9 @@ std::string cycleTitle(const Block& block) {
   std::string_view title = lexer.restOfLine();
   // Parameters in the first line are written below it.
   for (std::size_t i = 0; i + 1 < title.size(); ++i) {
-    const bool begins = title[i] == 'Q' && (i == 0 || isBlankOrReturn(title[i - 1]));
+    const bool begins = upper(title[i]) == 'Q' && (i == 0 || isBlankOrReturn(title[i - 1]));
     if (!begins) continue;
-    const std::size_t end = title.find_first_not_of("QSLR0123456789 \t", i);
+    const std::size_t end = title.find_first_not_of("QSLRqslr0123456789 \t", i);
     const bool parameter = end != std::string_view::npos && title[end] == '=';
     if (parameter) title = title.substr(0, i);
   }
@@ -228,12 +228,14 @@ private:
   std::span<const Word> words_;
 };
 
-/// Words with incremental signs, blanks between.
+/// Words with incremental signs, blanks between. The row of a table has no sign.
 std::string plainWords(const Block& block, std::span<const Word> words) {
   std::string out;
   for (const Word& word : words) {
+    const bool isRow = word.address == '#';
     out += fmt::format("{}{}{}{}", out.empty() ? "" : " ", word.mode == WordMode::Incremental ? "I" : "",
-                       addressName(word.address), writeValue(block, word.value));
+                       addressName(word.address),
+                       isRow ? unsignedValue(block, word.value) : writeValue(block, word.value));
   }
   return out;
 }
@@ -248,7 +250,7 @@ std::string presetText(const Block& block, std::string_view name, std::span<cons
     } else if (address == "SEL") {
       out += " SELECT TARGET";
     } else {
-      const std::string row = writeValue(block, word.value);
+      const std::string row = unsignedValue(block, word.value);
       out += fmt::format(" {}{}{}", address == "TO" ? "TO " : "", row.starts_with('"') ? "" : "#", row);
     }
   }
@@ -345,8 +347,10 @@ std::string writeTransform(const Block& block, const Transform& transform) {
     std::string text(name);
     if (transform.option.length > 0) text += fmt::format(" \"{}\"", block.at(transform.option));
     for (const Word& word : words) {
-      text += fmt::format(" {}{}{}", word.mode == WordMode::Incremental ? "I" : "",
-                          word.address == '#' ? "TABLINE " : addressName(word.address), writeValue(block, word.value));
+      const std::string_view sign = word.mode == WordMode::Incremental ? "I" : "";
+      text += word.address == '#'
+                  ? fmt::format(" TABLINE {}", unsignedValue(block, word.value))
+                  : fmt::format(" {}{}{}", sign, addressName(word.address), writeValue(block, word.value));
     }
     return text;
   }

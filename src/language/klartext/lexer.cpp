@@ -57,11 +57,15 @@ const char* Lexer::lineEnd() const {
 }
 
 bool Lexer::acceptPrefix(std::string_view text) {
-  if (peek() == '\0' || static_cast<std::size_t>(end_ - p_) < text.size()) return false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (upper(p_[i]) != text[i]) return false;
+  if (peek() == '\0') return false;
+  const char* next = p_;
+  for (const char wanted : text) {
+    if (next == end_ || (wanted == ' ' ? !isBlank(*next) : upper(*next) != wanted)) return false;
+    ++next;
+    while (wanted == ' ' && next < end_ && isBlank(*next))
+      ++next;
   }
-  p_ += text.size();
+  p_ = next;
   return true;
 }
 

@@ -58,7 +58,7 @@ public:
 
   /// Skips the keyword (upper case) if it comes next and no letter follows.
   bool acceptKeyword(std::string_view keyword);
-  /// Skips the text (upper case) if it comes next, whatever follows.
+  /// Skips the text (upper case) if it comes next, whatever follows. A blank in it stands for any number of them.
   bool acceptPrefix(std::string_view text);
 
   /// An unsigned decimal number, if one comes next. Point or comma separate the decimals. Correctly rounded; infinite,

@@ -11,7 +11,7 @@ bool BlockParser::feedWord(Operand& feed, bool* rapid, bool* autoFeed) {
   const char c = lexer_.peek();
   if (c == 'M' && upper(lexer_.here(1)) == 'A' && upper(lexer_.here(2)) == 'X') {
     lexer_.advance(3);
-    if (lexer_.here() == 'T') {  // FMAXT: a path with the time it takes
+    if (upper(lexer_.here()) == 'T') {  // FMAXT: a path with the time it takes
       lexer_.advance();
       return value("F MAXT").has_value();
     }

@@ -353,7 +353,7 @@ bool BlockParser::functionKeyword() {
       if (!choice("PATH", "AXIS", "VECTOR")) return false;
     } else if (lexer_.acceptKeyword("REFPNT")) {
       static constexpr std::array<std::string_view, 3> points = {"TIP-TIP", "TIP-CENTER", "CENTER-CENTER"};
-      const std::string_view written = lexer_.chunk();
+      const std::string written = upperCase(lexer_.chunk());
       const auto point = std::ranges::find(points, written);
       if (point == points.end()) return error("TIP-TIP, TIP-CENTER or CENTER-CENTER is expected after REFPNT");
       addWord(addressOf("REFP"), Operand::of(static_cast<double>(point - points.begin())));
