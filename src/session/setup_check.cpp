@@ -218,6 +218,10 @@ private:
       for (const Word& word : wordsOf(command.words))
         if (isAxisLetter(word.address) && lacksAxis(addressName(word.address))) needAxis(word);
     }
+    if (block_.at(command.name) == klartext::nameOf(klartext::CommandKind::ToolDefinition)) {
+      const auto tool = named(wordsOf(command.words).front().value);
+      if (tool && !tool->name.empty()) needTool(*tool);
+    }
     if (block_.at(command.name) != klartext::nameOf(klartext::CommandKind::PresetSelect)) return;
     for (const Word& word : wordsOf(command.words)) {
       if (word.address != '#') continue;

@@ -267,7 +267,7 @@ TEST(Check, KnowsToolsAndPresetsOfASetup) {
                                 "9 PRESET SELECT #7\n10 TCH PROBE 441 FAST PROBING ~\nQ396=+0 ~\nQ397=+0 ~\nQ399=+1 ~\n"
                                 "Q400=+0\n11 TCH PROBE 427 MEASURE COORDINATE ~\nQ263=+0 ~\nQ264=+0 ~\nQ261=+0 ~\n"
                                 "Q320=+0 ~\nQ272=+1 ~\nQ267=+1 ~\nQ260=+50 ~\nQ281=+0 ~\nQ288=+1 ~\nQ289=-1 ~\n"
-                                "Q309=+0 ~\nQ330= \"FARAWAY\"\n12 END PGM A MM\n",
+                                "Q309=+0 ~\nQ330= \"FARAWAY\"\n12 TOOL DEF \"NEXT\"\n13 TOOL DEF 8\n14 END PGM A MM\n",
                                 tnc);
   EXPECT_EQ(klartext.exit, 2);
   EXPECT_THAT(klartext.errors, HasSubstr("a.h:3:1: error: the setup has no tool 9\n"));
@@ -277,6 +277,7 @@ TEST(Check, KnowsToolsAndPresetsOfASetup) {
   EXPECT_THAT(klartext.errors, HasSubstr("a.h:12:1: error: the setup has no preset 7\n"));
   EXPECT_THAT(klartext.errors, HasSubstr("a.h:30:8: error: the setup has no tool FARAWAY\n    Q330= \"FARAWAY\"\n"))
       << "at its place in a call of many lines";
+  EXPECT_THAT(klartext.errors, HasSubstr("a.h:31:14: error: the setup has no tool NEXT\n"));
   EXPECT_THAT(klartext.errors, Not(HasSubstr("no tool 1\n")));
   EXPECT_THAT(klartext.errors, Not(HasSubstr("no tool 0\n")));
   EXPECT_THAT(klartext.errors, Not(HasSubstr("no preset 3\n")));
