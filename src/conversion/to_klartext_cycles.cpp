@@ -277,6 +277,11 @@ void ToKlartext::correctTool(const MeasuringTask& task, const Results& results) 
 void ToKlartext::cycle(const Block& block, const CallProgram& called) {
   const cycles::CycleDefinition* definition = cycles::sinumerikCycle(block.at(called.name));
   measuredWithTool_ = measuredWithTool_ || definition->number != 150;
+  if (called.arguments.count == 0 && definition->number != 150) {
+    throw NotCarriedOver(
+        fmt::format("{} without arguments takes them from _MVAR, _SETVAL and their like", definition->name),
+        "write the arguments into the call");
+  }
   Call call;
   call.cycle = definition->name;
   call.millimetre = millimetre_;

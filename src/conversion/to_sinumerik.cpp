@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/number_text.hpp"
+#include "base/text.hpp"
 #include "conversion/modes.hpp"
 #include "language/klartext/block_extent.hpp"
 #include "language/klartext/commands.hpp"
@@ -369,28 +370,30 @@ void ToSinumerik::machineFunction(const Block& block, const MachineFunction& fun
 }
 
 void ToSinumerik::blank(std::string_view text) {
-  // "0.1 Z X+0 Y+0 Z-40", "0.2 X+120 Y+80 Z+12"
-  std::string corner(text);
-  std::array<std::string, 3> coordinates;
-  bool complete = true;
-  for (std::size_t i = 0; i < 3; ++i) {
+  // "0.1 Z X+0 Y+0 Z-40", "0.2 X+120 IY+80 Z+12"
+  const std::string corner = upperCase(text);
+  const bool first = corner.starts_with("0.1"), second = corner.starts_with("0.2") && blank_.has_value();
+  std::array<double, 3> coordinates = {};
+  bool complete = first || second;
+  for (std::size_t i = 0; i < 3 && complete; ++i) {
     const std::size_t at = corner.rfind("XYZ"[i]);
-    const std::size_t end = at == std::string::npos ? at : corner.find_first_not_of("+-.0123456789", at + 1);
-    const std::string digits = at == std::string::npos ? std::string() : corner.substr(at + 1, end - at - 1);
+    const std::size_t end = at == std::string::npos ? at : corner.find_first_not_of("+-.,0123456789", at + 1);
+    std::string digits = at == std::string::npos ? std::string() : corner.substr(at + 1, end - at - 1);
+    std::ranges::replace(digits, ',', '.');
     const auto value = parseDecimal(digits);
-    complete = complete && value.has_value();
-    coordinates[i] = value ? numberText(*value) : std::string();
+    const bool incremental = value && at > 0 && corner[at - 1] == 'I';
+    complete = value && !(incremental && first);
+    if (complete) coordinates[i] = *value + (incremental ? (*blank_)[i] : 0);
   }
-  const bool first = corner.starts_with("0.1"), second = corner.starts_with("0.2");
-  if (!complete || !(first || (second && blank_.size() == 3))) {
-    throw NotCarriedOver("this blank form has no twin on a SINUMERIK", "it is a picture only");
-  }
+  if (!complete) throw NotCarriedOver("this blank form has no twin on a SINUMERIK", "it is a picture only");
   if (first) {
-    blank_ = {coordinates.begin(), coordinates.end()};
+    blank_ = coordinates;
     return;
   }
-  out_.line(fmt::format("WORKPIECE(,\"\",,\"BOX\",112,{},{},-80,{},{},{},{})", coordinates[2], blank_[2], blank_[0],
-                        blank_[1], coordinates[0], coordinates[1]));
+  const auto& [x, y, z] = *blank_;
+  out_.line(fmt::format("WORKPIECE(,\"\",,\"BOX\",112,{},{},-80,{},{},{},{})", numberText(coordinates[2]),
+                        numberText(z), numberText(x), numberText(y), numberText(coordinates[0]),
+                        numberText(coordinates[1])));
 }
 
 std::string ToSinumerik::toolDatum(const Quantity& number, const Quantity& tool) const {
@@ -416,8 +419,10 @@ bool ToSinumerik::leavesOut(const Block& block, const Command& command) {
     name += fmt::format(" {}", word);
   }
   if (kind == ToolDefinition && command.words.count == 1) {
-    out_.listOnce(block, "TOOL DEF prepares the tool that comes next, which changes no measurement: it is left out",
-                  "program T ahead of M6 if the magazine needs it", Severity::Note);
+    out_.listOnce(
+        block, "TOOL DEF prepares the tool that comes next, which changes no measurement: it is left out",
+        "program T ahead of M6 if the magazine needs it, or if the program shall stop here for want of the tool",
+        Severity::Note);
     return true;
   }
   if (!leaves) return false;

@@ -296,9 +296,9 @@ private:
   LackingRows lackingRows_;
   bool ended_ = false;
   bool listedReach_ = false;
-  std::vector<std::string> blank_;  ///< X, Y, Z of BLK FORM 0.1
-  std::string orientation_;         ///< of the spindle by M19 and M20: what cycle 13 has said last
-  std::size_t lastMove_ = 0;        ///< line of the last motion, plus 1
+  std::optional<std::array<double, 3>> blank_;  ///< X, Y, Z of BLK FORM 0.1
+  std::string orientation_;                     ///< of the spindle by M19 and M20: what cycle 13 has said last
+  std::size_t lastMove_ = 0;                    ///< line of the last motion, plus 1
   struct LastPath {
     language::BlockPosition next{};
     bool rapid = false, arc = false, inPlane = false, skippable = false;

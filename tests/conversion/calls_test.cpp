@@ -107,6 +107,20 @@ TEST(ConvertCalls, IncompleteAndWrongOnesAreMistakes) {
 }
 
 /// What is written for the iTNC 530 has nothing but what that control knows.
+/// Older programs and posts give them in variables.
+TEST(ConvertCalls, CallsWithoutArgumentsAreNotGuessed) {
+  for (const std::string cycle : {"CYCLE977", "CYCLE978", "CYCLE979", "CYCLE998", "CYCLE961", "CYCLE976", "CYCLE971"}) {
+    SCOPED_TRACE(cycle);
+    const conversion::Conversion conversion = toKlartext("T1 M6 D1\n_MVAR=1 _SETVAL=32 _KNUM=1\n" + cycle + "\nM30\n");
+    EXPECT_THAT(conversion.text, ::testing::Not(::testing::HasSubstr("TCH PROBE")));
+    EXPECT_THAT(conversion.text, ::testing::HasSubstr("; NOT CARRIED OVER: " + cycle + "\n"));
+    const auto lost =
+        std::ranges::find(conversion.notCarriedOver, 3U, [](const Diagnostic& each) { return each.place.line; });
+    ASSERT_NE(lost, conversion.notCarriedOver.end());
+    EXPECT_THAT(lost->message, ::testing::HasSubstr(cycle + " without arguments takes them from _MVAR"));
+  }
+}
+
 TEST(ConvertCalls, AllSinumerikCasesPassTheCheckOfTheElderControl) {
   Dice dice(771);
   for (const sinumerik_programs::Case& each : sinumerik_programs::cases()) {

@@ -307,6 +307,8 @@ TEST(ConvertMotion, DrawsTheBlank) {
   const std::string sinumerik = toSinumerik("0 BEGIN PGM BENCH MM\n2 " + form + "4 END PGM BENCH MM\n").text;
   EXPECT_THAT(sinumerik, HasSubstr("WORKPIECE(,\"\",,\"BOX\",112,0,-40,-80,-10,0,100,80)\n"));
   EXPECT_THAT(toKlartext(sinumerik).text, HasSubstr(form));
+  EXPECT_THAT(toSinumerik("blk form 0.1 z x-10 y+0,5 z-40\nblk form 0.2 ix+100 iy+80 z+0\n").text,
+              HasSubstr("WORKPIECE(,\"\",,\"BOX\",112,0,-40,-80,-10,0.5,90,80.5)\n"));
 }
 
 TEST(ConvertMotion, TiltsPlanes) {
