@@ -270,7 +270,8 @@ private:
     if (block.instructions.empty()) {  // nothing but modal functions
       const std::string_view source = block.at(block.source);
       const std::size_t remark = source.find(';');
-      if (remark != std::string_view::npos) line(std::string(trimmedAtEnd(source.substr(remark), lineBlanks)), Text::Remark);
+      if (remark != std::string_view::npos)
+        line(std::string(trimmedAtEnd(source.substr(remark), lineBlanks)), Text::Remark);
       return;
     }
     const bool oldMachining = std::ranges::any_of(block.instructions, [&block](const Instruction& instruction) {
@@ -296,7 +297,8 @@ private:
   void leaveOut(const Block& original, std::string message, std::string advice) {
     report(original, std::move(message), std::move(advice));
     forEachLine(original.at(original.source), [this](std::string_view rest) {
-      line(fmt::format("; NOT CARRIED OVER: {}{}", trimmedAtEnd(rest, lineBlanks), toDinIso_ ? " *" : ""), Text::Remark);
+      line(fmt::format("; NOT CARRIED OVER: {}{}", trimmedAtEnd(rest, lineBlanks), toDinIso_ ? " *" : ""),
+           Text::Remark);
     });
   }
 

@@ -6,6 +6,7 @@
 
 #include "control/alarm.hpp"
 #include "control/stopped_place.hpp"
+#include "probing/heidenhain_prober.hpp"
 
 namespace probewright::probing {
 
@@ -94,6 +95,7 @@ ToolTouch ToolProber::stroke(const MachineWay& direction) {
   const control::Touch touch = channel_.touchFrom(result);
   channel_.retractTo(startInProgram, Feed::rapidTraverse());
   record.ballCentre = record.surface = touch.tip.vector();
+  record.spindle = spindlePlace(channel_, touch.latched).vector();
   record.latched = touch.latched;
   record.seconds = channel_.seconds();
   record.outcome = "touched";

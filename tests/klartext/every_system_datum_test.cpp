@@ -312,6 +312,7 @@ TEST(EverySystemDatum, OfTheLastTouch) {
     touch.outcome = outcome;
     touch.surface = {1.5, 2.5, 3.5};
     touch.ballCentre = {4.5, 5.5, 6.5};
+    touch.spindle = {7.5, 8.5, 9.5};
     touch.latched[0] = 11;
     touch.latched[1] = -12;
     touch.latched[2] = -130.5;
@@ -319,7 +320,6 @@ TEST(EverySystemDatum, OfTheLastTouch) {
     ASSERT_TRUE(c);
     touch.latched[*c] = 40;
     world.control->journal.cycles.emplace_back().touches = {touch};
-    // The spindle stands at the length of the tool above its tip.
     expectData(world, "TOOL CALL 5 Z\n",
                {{360, 1, 1, 1.5},
                 {360, 1, 2, 2.5},
@@ -329,9 +329,9 @@ TEST(EverySystemDatum, OfTheLastTouch) {
                 {360, 2, 2, -12},
                 {360, 2, 3, -130.5},
                 {360, 2, 6, 40},
-                {360, 3, 1, 11},
-                {360, 3, 2, -12},
-                {360, 3, 3, -130.5},
+                {360, 3, 1, 7.5},
+                {360, 3, 2, 8.5},
+                {360, 3, 3, 9.5},
                 {360, 4, 1, 4.5},
                 {360, 4, 2, 5.5},
                 {360, 4, 3, 6.5},

@@ -52,6 +52,20 @@ TEST(ToolTouches, AreExpectedWhereTheBelievedToolTouches) {
   }
 }
 
+/// FN 18 tells where the spindle stood at the last touch: the axes, seen from the preset at Z-420.
+TEST(ToolTouches, TellWhereTheSpindleStood) {
+  for (const ControlKind control : {ControlKind::TNC640, ControlKind::iTNC530}) {
+    const Mill mill(control);
+    const Ran ran = mill.run(cycles(1, 1, false) +
+                             "FN 18: SYSREAD Q61 = ID360 NR2 IDX1\nFN 18: SYSREAD Q63 = ID360 NR2 IDX3\n"
+                             "FN 18: SYSREAD Q71 = ID360 NR3 IDX1\nFN 18: SYSREAD Q73 = ID360 NR3 IDX3\n");
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    EXPECT_GT(ran.q(61), 90);
+    EXPECT_NEAR(ran.q(71), ran.q(61), 1e-9);
+    EXPECT_NEAR(ran.q(73), ran.q(63) + 420, 1e-9);
+  }
+}
+
 TEST(ToolUnits, AToolIsAsLongInInches) {
   for (const ControlKind control : {ControlKind::TNC640, ControlKind::iTNC530}) {
     for (const bool old : {false, true}) {
