@@ -298,19 +298,8 @@ public:
 
   int numberOf(const TopoDS_Face& face) const { return numbers_.at(face.TShape().get()); }
 
-  /// All faces of the shape or of a copy, by OpenCASCADE's mesher, with chords `finer` times as fine as usual.
-  void mesh(const TopoDS_Shape& shape, double finer = 1) {
-    const Handle(BRepMesh_Context) context = new BRepMesh_Context();
-    context->SetFaceDiscret(new BRepMesh_FaceDiscret(new WatchedAlgos(numbers_, options_, givenUp_)));
-    BRepMesh_IncrementalMesh mesher;
-    mesher.SetShape(shape);
-    IMeshTools_Parameters& parameters = mesher.ChangeParameters();
-    parameters.Deflection = std::max(kAlongEdges * fine_, kAlongEdgesOfSize * size_) / finer;
-    parameters.DeflectionInterior = std::max(kInteriorDeflections * fine_, kInteriorOfSize * size_) / finer;
-    parameters.Angle = kAngle;
-    parameters.InParallel = options_.parallel;
-    mesher.Perform(context);
-  }
+  /// All faces of the shape, by OpenCASCADE's mesher.
+  void mesh(const TopoDS_Shape& shape) { mesh(shape, 1, givenUp_); }
 
   /// A face that has no triangles, or whose triangles end elsewhere than at its edges, with finer chords.
   void meshFiner(const TopoDS_Face& face, int number) {
@@ -321,7 +310,9 @@ public:
       const TopoDS_Face bare = TopoDS::Face(face.Located(TopLoc_Location()));
       const TopoDS_Face copy = TopoDS::Face(BRepBuilderAPI_Copy(bare, Standard_False, Standard_False).Shape());
       numbers_[copy.TShape().get()] = number;
-      mesh(copy, finer);
+      GivenUp tooFine;
+      mesh(copy, finer, tooFine);
+      if (tooFine.contains(number)) return;
       if (isWhole(copy) || !hasTriangles(face)) takeMesh(bare, copy);
     }
   }
@@ -355,6 +346,20 @@ public:
   }
 
 private:
+  /// With chords along the edges `finer` times as fine as usual.
+  void mesh(const TopoDS_Shape& shape, double finer, GivenUp& givenUp) const {
+    const Handle(BRepMesh_Context) context = new BRepMesh_Context();
+    context->SetFaceDiscret(new BRepMesh_FaceDiscret(new WatchedAlgos(numbers_, options_, givenUp)));
+    BRepMesh_IncrementalMesh mesher;
+    mesher.SetShape(shape);
+    IMeshTools_Parameters& parameters = mesher.ChangeParameters();
+    parameters.Deflection = std::max(kAlongEdges * fine_, kAlongEdgesOfSize * size_) / finer;
+    parameters.DeflectionInterior = std::max(kInteriorDeflections * fine_, kInteriorOfSize * size_);
+    parameters.Angle = kAngle;
+    parameters.InParallel = options_.parallel;
+    mesher.Perform(context);
+  }
+
   const FaceMeshOptions& options_;
   FaceNumbers numbers_;
   GivenUp givenUp_;

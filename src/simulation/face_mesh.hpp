@@ -45,10 +45,10 @@ bool isMeshed(const TopoDS_Shape& shape, double deflection);
 /// Gives every face triangles, as the mesher of OpenCASCADE makes them: along its edges they leave it by about eight
 /// times `deflection` (mm), within it by up to about sixty times as much (on some free forms even more), in shapes of
 /// more than about three metres by a share of their size. Faces that it leaves without triangles are tried twice more,
-/// four and sixteen times as fine. Those that it gives up, or still leaves, get a grid of cells over their parameters
-/// instead: on the surface, but reaching over the border by up to a cell. They are returned, but for those whose cells
-/// are smaller than `deflection`, and for faces that have come to nothing: a border to and fro on one straight line, or
-/// a surface that is only a line or a point.
+/// with chords along the edges four and sixteen times as fine. Those that it gives up, or still leaves, get a grid of
+/// cells over their parameters instead: on the surface, but reaching over the border by up to a cell. They are
+/// returned, but for those whose cells are smaller than `deflection`, and for faces that have come to nothing: a border
+/// to and fro on one straight line, or a surface that is only a line or a point.
 std::vector<GridFace> meshFaces(const TopoDS_Shape& shape, double deflection, const FaceMeshOptions& options = {});
 
 }  // namespace probewright::simulation
